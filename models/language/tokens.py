@@ -1,0 +1,89 @@
+"""Text to words: the tokeniser that training and translation share.
+
+Case is folded to lower case and punctuation is dropped, so neither changes a translation. A hyphen, an apostrophe, a
+dot or an ampersand inside a word stays: `yo-yo`, `o'hare`, `h&m`.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from models.errors import Place
+from models.language.errors import TextTooLongError
+
+MAX_CHARACTERS = 2_000
+"""Longest text of a command, in characters."""
+MAX_WORDS = 200
+"""Longest text of a command, in words; the longest of the published human commands has about 75."""
+
+_RUN = re.compile(r"""[^\s,;:!?"“”„«»()\[\]{}<>…—–¡¿]+""")
+_DROPPED = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """One word: its folded text, and where it stands, `text[start:end]` of the original."""
+
+    text: str
+    start: int
+    end: int
+
+
+def tokenize(text: str) -> tuple[Token, ...]:
+    """The words of a text, left to right.
+
+    Raises:
+        TextTooLongError: more than `MAX_CHARACTERS` characters or `MAX_WORDS` words.
+    """
+    check_length(text)
+    tokens = tuple(token for run in _RUN.finditer(visible(text)) if (token := _token(run)) is not None)
+    if len(tokens) > MAX_WORDS:
+        raise _too_long(f"a command has at most {MAX_WORDS} words, not {len(tokens)}")
+    return tokens
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The folded words of a text; raises as `tokenize` does."""
+    return tuple(token.text for token in tokenize(text))
+
+
+def find(phrase: Sequence[str], text: Sequence[str]) -> int | None:
+    """Where the words of a phrase first stand together among the words of a text; None when they do not."""
+    if not phrase:
+        return None
+    starts = range(len(text) - len(phrase) + 1)
+    return next((start for start in starts if tuple(text[start : start + len(phrase)]) == tuple(phrase)), None)
+
+
+def check_length(text: str) -> None:
+    """Raises `TextTooLongError` when the text has more than `MAX_CHARACTERS` characters."""
+    if len(text) > MAX_CHARACTERS:
+        raise _too_long(f"a command has at most {MAX_CHARACTERS} characters, not {len(text)}")
+
+
+def visible(text: str) -> str:
+    """The text with control, format, private and surrogate characters blanked, each by one space."""
+    if text.isprintable():
+        return text
+    return "".join(" " if unicodedata.category(character) in _DROPPED else character for character in text)
+
+
+def _token(run: re.Match[str]) -> Token | None:
+    start, end = run.span()
+    raw = run.group()
+    while raw and _is_punctuation(raw[0]):
+        raw, start = raw[1:], start + 1
+    while raw and _is_punctuation(raw[-1]):
+        raw, end = raw[:-1], end - 1
+    return Token(unicodedata.normalize("NFC", raw).lower(), start, end) if raw else None
+
+
+def _is_punctuation(character: str) -> bool:
+    return unicodedata.category(character).startswith("P") or character in "`´^~=+|$<>"
+
+
+def _too_long(detail: str) -> TextTooLongError:
+    return TextTooLongError(detail, places=[Place("", detail)])

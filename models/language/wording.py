@@ -1,0 +1,137 @@
+"""Taught wordings: an utterance with its query, and every command that says the same of other things.
+
+"put the cylinder in the box" with `store(cylinder, box)` becomes the wording "put (the) $1 in (the) $2". What fills a
+slot is a phrase of the command; a slot that occurs twice is filled by the same words both times.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from models.errors import CqltlError, Place
+from models.language.tokens import words
+from models.language.translator import Translation
+from models.queries import ContextualQuery
+
+MAX_SLOT_WORDS = 6
+"""Most words of a phrase that fills a slot."""
+MAX_STEPS = 20_000
+"""Most comparisons for one command and wording; a wording that needs more does not match."""
+DETERMINERS = frozenset({"the", "a", "an", "this", "that", "my", "your"})
+"""Left out of wordings and commands alike, where a phrase begins."""
+CONNECTIVES = frozenset({"and", "then", "or", "but", "until", "before", "after", "while", "unless"})
+"""Never within a phrase: what follows one of them is another clause."""
+
+Slot = int
+Element = str | Slot
+"""A word that must stand there, or the number of an argument, from 0."""
+
+
+class ExampleArgumentNotFoundError(CqltlError):
+    """An utterance does not contain the words of an argument of its query."""
+
+    slug = "example-argument-not-found"
+
+
+@dataclass(frozen=True, slots=True)
+class Wording:
+    """A pattern of words and slots, and the task it says."""
+
+    task: str
+    arity: int
+    elements: tuple[Element, ...]
+
+    @classmethod
+    def of(cls, utterance: str, query: ContextualQuery) -> Wording:
+        """The wording of one utterance of a query; longer arguments are found first.
+
+        Raises:
+            ExampleArgumentNotFoundError: an argument's words do not stand in the utterance.
+            TextTooLongError: the utterance is beyond the limits of a command.
+        """
+        elements: list[Element] = list(words(utterance))
+        phrases = [_without_determiner(words(phrase)) for phrase in query.arguments]
+        for slot in sorted(range(len(phrases)), key=lambda index: -len(phrases[index])):
+            if not _put_slot(elements, phrases[slot], slot):
+                detail = (
+                    f'the utterance does not contain argument {slot + 1} of {query.task}, "{query.arguments[slot]}"'
+                )
+                raise ExampleArgumentNotFoundError(detail, places=[Place("", detail)])
+        return cls(query.task, len(phrases), tuple(_drop_determiners(elements)))
+
+    def match(self, spoken: Sequence[str]) -> ContextualQuery | None:
+        """The query that the words of a command say in this wording, or None."""
+        budget = [MAX_STEPS]
+        filled = next(self._fill(tuple(spoken), 0, 0, {}, budget), None)
+        if filled is None or len(filled) != self.arity:
+            return None
+        return ContextualQuery(self.task, tuple(" ".join(filled[slot]) for slot in range(self.arity)))
+
+    def _fill(
+        self, spoken: tuple[str, ...], at: int, element: int, filled: dict[Slot, tuple[str, ...]], budget: list[int]
+    ) -> Iterator[dict[Slot, tuple[str, ...]]]:
+        budget[0] -= 1
+        if budget[0] < 0:
+            return
+        if element == len(self.elements):
+            if at == len(spoken):
+                yield filled
+            return
+        expected = self.elements[element]
+        if isinstance(expected, str):
+            if at < len(spoken) and spoken[at] == expected:
+                yield from self._fill(spoken, at + 1, element + 1, filled, budget)
+            return
+        start = at + (at < len(spoken) and spoken[at] in DETERMINERS)
+        known = filled.get(expected)
+        lengths = range(1, MAX_SLOT_WORDS + 1) if known is None else (len(known),)
+        for length in lengths:
+            phrase = spoken[start : start + length]
+            if len(phrase) == length and known in (None, phrase) and CONNECTIVES.isdisjoint(phrase):
+                yield from self._fill(spoken, start + length, element + 1, {**filled, expected: phrase}, budget)
+
+
+@dataclass(frozen=True, slots=True)
+class TaughtTranslator:
+    """A translator of taught wordings: what is said as it was taught is understood with certainty, all else not."""
+
+    wordings: tuple[Wording, ...]
+
+    @classmethod
+    def of(cls, examples: Iterable[tuple[str, ContextualQuery]]) -> TaughtTranslator:
+        """From utterances with their queries; raises as `Wording.of`."""
+        return cls(tuple(dict.fromkeys(Wording.of(utterance, query) for utterance, query in examples)))
+
+    def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
+        """The query of the most literal wording that matches, then of the others; the first has confidence 1.
+
+        Where wordings disagree, the later ones are readings without a probability of their own: confidence 0.
+        """
+        spoken = words(text)
+        ranked = sorted(self.wordings, key=lambda w: -sum(isinstance(element, str) for element in w.elements))
+        found = dict.fromkeys(query for wording in ranked if (query := wording.match(spoken)) is not None)
+        return tuple(Translation(query, float(rank == 0)) for rank, query in enumerate(found))[:candidates]
+
+
+def _put_slot(elements: list[Element], phrase: Sequence[str], slot: Slot) -> bool:
+    """Replace every occurrence of the phrase by the slot, in place; whether there was one."""
+    found, at = False, 0
+    while at + len(phrase) <= len(elements):
+        if elements[at : at + len(phrase)] == list(phrase):
+            elements[at : at + len(phrase)] = [slot]
+            found = True
+        at += 1
+    return found
+
+
+def _without_determiner(phrase: Sequence[str]) -> Sequence[str]:
+    return phrase[1:] if len(phrase) > 1 and phrase[0] in DETERMINERS else phrase
+
+
+def _drop_determiners(elements: Sequence[Element]) -> Iterator[Element]:
+    """The elements without a determiner right before a slot; `match` takes one there or none."""
+    following = [*elements[1:], ""]
+    for element, after in zip(elements, following, strict=True):
+        if not (element in DETERMINERS and isinstance(after, int)):
+            yield element

@@ -1,0 +1,37 @@
+"""Planning: the best policy for a formula in a world.
+
+`plan` maximises the probability of satisfying a co-safe formula and, among the policies that do, minimises the expected
+number of steps until the outcome is decided. Values come with bounds that hold.
+"""
+
+from models.planning.errors import DeviceUnavailableError, InvalidMemoryError, InvalidPolicyError, ModelTooLargeError
+from models.planning.options import Options, Progress
+from models.planning.planner import Plan, Sizes, plan
+from models.planning.policy import INVALID, NOTHING, WAIT, Policy, Step
+from models.planning.policy_data import from_bytes, to_bytes, to_json
+from models.planning.simulation import Simulation, simulate
+from models.planning.trajectory import Trajectory, TrajectoryStep
+
+__all__ = [
+    "INVALID",
+    "NOTHING",
+    "WAIT",
+    "DeviceUnavailableError",
+    "InvalidMemoryError",
+    "InvalidPolicyError",
+    "ModelTooLargeError",
+    "Options",
+    "Plan",
+    "Policy",
+    "Progress",
+    "Simulation",
+    "Sizes",
+    "Step",
+    "Trajectory",
+    "TrajectoryStep",
+    "from_bytes",
+    "plan",
+    "simulate",
+    "to_bytes",
+    "to_json",
+]

@@ -1,0 +1,171 @@
+"""A world gathered into arrays, once, for all automaton states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.planning.errors import ModelTooLargeError
+from models.planning.options import Options, Progress, no_progress
+from models.planning.ragged import offsets, spans
+from models.world import World
+
+STAY = -1
+"""The action of a state in which no action is enabled: nothing is done and the state stays."""
+
+BLOCK = 2**18
+"""States compiled at a time, so that the world's dense answer for one action stays small."""
+
+SAMPLE = 2**12
+"""States looked at to estimate the memory of a larger world; drawn evenly spaced."""
+
+OUTCOME_BYTES = 12
+"""One stored outcome: successor (4) and probability (8)."""
+
+WORKING_COPIES = 5
+"""How often an outcome is held at the peak: world, product, predecessors, the operator and its making."""
+
+STATE_BYTES = 64
+"""Per product state: policy arrays (24), values and bounds (24), index and flags (16)."""
+
+
+ROUNDOFF = 1e-15
+"""How far the probabilities of a choice may be from 1 in sum without being scaled."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CompiledWorld:
+    """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by choice.
+
+    Every valid state has at least one choice, every choice at least one outcome; all probabilities are positive.
+    """
+
+    states: int
+    valid: NDArray[np.bool_]  # [S]
+    first_choice: NDArray[np.int32]  # [S + 1]
+    action: NDArray[np.int32]  # [C]  index of the action, or STAY
+    first_outcome: NDArray[np.int32]  # [C + 1]
+    successor: NDArray[np.int32]  # [E]
+    probability: NDArray[np.float64]  # [E]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Block:
+    """The choices of consecutive states, in the order of CompiledWorld."""
+
+    choices: NDArray[np.int32]  # [states]  how many
+    action: NDArray[np.int32]  # [c]
+    outcomes: NDArray[np.int32]  # [c]  how many
+    successor: NDArray[np.int32]  # [e]
+    probability: NDArray[np.float64]  # [e]
+
+
+def check_size(states: int, memories: int, options: Options) -> None:
+    """Refuse a product of more than `options.max_states` states; raises ModelTooLargeError."""
+    product = states * memories
+    if product > options.max_states:
+        raise ModelTooLargeError(
+            f"the product has {product} states ({states} of the world, {memories} of the automaton); "
+            f"the limit is {options.max_states}",
+            estimate=product,
+            limit=options.max_states,
+            unit="states",
+        )
+
+
+def check_memory(world: World, memories: int, live: int, options: Options) -> None:
+    """Refuse a product that needs more than `options.max_bytes`; raises ModelTooLargeError before allocating it.
+
+    `live` is the number of automaton states that are iterated. The number of outcomes of a large world is estimated
+    from evenly spaced states; worlds of up to SAMPLE states are small.
+    """
+    if world.size <= SAMPLE:
+        return
+    states = np.linspace(0, world.size - 1, SAMPLE).astype(np.int64)
+    states = states[world.valid(states)]
+    outcomes = sum(
+        int(np.count_nonzero(world.outcomes(action, states).probability)) for action in range(len(world.actions))
+    )
+    per_state = outcomes / max(1, len(states))
+    estimate = int(world.size * (STATE_BYTES * memories + per_state * OUTCOME_BYTES * WORKING_COPIES * max(1, live)))
+    if estimate > options.max_bytes:
+        raise ModelTooLargeError(
+            f"planning needs about {estimate} bytes ({world.size * memories} product states, about {per_state:.0f} "
+            f"outcomes a state); the limit is {options.max_bytes}",
+            estimate=estimate,
+            limit=options.max_bytes,
+            unit="bytes",
+        )
+
+
+def compile_world(world: World, *, progress: Progress = no_progress) -> CompiledWorld:
+    """Gather the dynamics of every valid state."""
+    valid = world.valid()
+    blocks = []
+    for number, start in enumerate(range(0, world.size, BLOCK)):
+        stop = min(start + BLOCK, world.size)
+        blocks.append(_compile_block(world, valid, start, stop))
+        progress("compile", number + 1, 0.0, np.inf, stop)
+    return CompiledWorld(
+        states=world.size,
+        valid=valid,
+        first_choice=offsets(_joined([block.choices for block in blocks])),
+        action=_joined([block.action for block in blocks]),
+        first_outcome=offsets(_joined([block.outcomes for block in blocks])),
+        successor=_joined([block.successor for block in blocks]),
+        probability=np.concatenate([block.probability for block in blocks]),
+    )
+
+
+def _joined(parts: list[NDArray[np.int32]]) -> NDArray[np.int32]:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int) -> _Block:
+    """The choices of the states start .. stop - 1."""
+    whole = start == 0 and stop == world.size
+    states = None if whole else np.arange(start, stop, dtype=np.int64)
+    usable = valid[start:stop]
+    stuck = usable.copy()
+    owner, action, outcomes, successor, probability = [], [], [], [], []
+    for number in range(len(world.actions)):
+        answer = world.outcomes(number, states)
+        enabled = np.flatnonzero(answer.enabled & usable)
+        if not len(enabled):
+            continue
+        stuck[enabled] = False
+        chance = answer.probability.T[enabled]  # [m, k]
+        happens = chance > 0
+        owner.append(enabled.astype(np.int32))
+        action.append(np.full(len(enabled), number, dtype=np.int32))
+        outcomes.append(happens.sum(axis=1, dtype=np.int32))
+        successor.append(answer.successor.T[enabled][happens].astype(np.int32))
+        probability.append(chance[happens])
+    alone = np.flatnonzero(stuck).astype(np.int32)
+    owner.append(alone)
+    action.append(np.full(len(alone), STAY, dtype=np.int32))
+    outcomes.append(np.ones(len(alone), dtype=np.int32))
+    successor.append(alone + np.int32(start))
+    probability.append(np.ones(len(alone)))
+
+    owners = np.concatenate(owner)
+    order = np.argsort(owners, kind="stable").astype(np.int32)  # by state; by action within a state
+    count = np.concatenate(outcomes)
+    position = spans(offsets(count), order)
+    return _Block(
+        choices=np.bincount(owners, minlength=stop - start).astype(np.int32),
+        action=np.concatenate(action)[order],
+        outcomes=count[order],
+        successor=np.concatenate(successor)[position],
+        probability=_normalised(np.concatenate(probability)[position], count[order]),
+    )
+
+
+def _normalised(probability: NDArray[np.float64], outcomes: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Exact to rounding: a world may give probabilities that sum to 1 only nearly, which long runs would notice."""
+    if not len(outcomes):
+        return probability
+    total = np.add.reduceat(probability, offsets(outcomes)[:-1])
+    return probability / np.repeat(total, outcomes) if np.abs(total - 1).max() > ROUNDOFF else probability

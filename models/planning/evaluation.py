@@ -1,0 +1,93 @@
+"""What a policy attains: its Markov chain, evaluated with an error bound."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.planning.bellman import Bellman, threads
+from models.planning.choices import Vector, gather
+from models.planning.direct import DIRECT_LIMIT, Improver
+from models.planning.graph import Qualities
+from models.planning.options import Options, Progress, no_progress
+from models.planning.probability import DIRECT_AFTER, Probability
+from models.planning.product import Product
+from models.planning.steps import Steps
+
+ERROR = 1e-9
+"""Error of the evaluated probabilities that is aimed at."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attained:
+    """The probability with which a policy is accepted, by node and column."""
+
+    value: Vector  # [n + 2]
+    lower: Vector  # [n + 2]  the policy is accepted at least this often
+
+
+def attained_probability(
+    product: Product,
+    qualities: Qualities,
+    probability: Probability,
+    steps: Steps,
+    initial: int,
+    *,
+    options: Options,
+    progress: Progress = no_progress,
+) -> Attained:
+    """Evaluate the policy of `steps` from every node.
+
+    From nodes of probability one it never leaves them and ends with probability one, so it attains exactly one. For
+    the others, a vector that one step of the policy changes by at most d is within d times the policy's expected steps
+    of the truth.
+    """
+    value = qualities.certain.astype(np.float64)
+    lower = value.copy()
+    nodes = np.flatnonzero(qualities.possible & ~qualities.certain)
+    if not len(nodes):
+        return Attained(value, lower)
+    unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
+    unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
+    owner = np.arange(len(nodes), dtype=np.int32)
+    chain = gather(product, steps.chosen[nodes], unknown=unknown, known=value, owner=owner, cost=0.0)
+    limit = options.max_sweeps
+    change, x = np.inf, probability.estimate[nodes]
+    longest = float(steps.upper[nodes].max())
+    operator = Bellman(chain, maximise=True, device=options.device)
+    with threads(operator.outcomes):
+        change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
+        if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
+            solved = Improver(chain, maximise=True).evaluate(owner)
+            change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
+    progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
+    value[nodes] = x
+    error = (change + chain.roundoff) * steps.upper[nodes]
+    lower[nodes] = np.clip(x - error, 0.0, 1.0) if np.isfinite(longest) else 0.0
+    return Attained(value, lower)
+
+
+def _watched(unknown: NDArray[np.int32], node: int, x: Vector) -> tuple[float, float]:
+    value = float(x[unknown[node]]) if unknown[node] >= 0 else 1.0
+    return value, value
+
+
+def _settle(operator: Bellman, start: Vector, small: float, sweeps: int) -> tuple[float, Vector]:
+    """Iterate until a sweep changes nothing by more than `small` or rounding; the last change and the vector before it."""
+    x = operator.vector(start)
+    out = torch.empty_like(x)
+    floor = operator.choices.roundoff
+    change = np.inf
+    for sweep in range(sweeps):
+        if sweep:
+            x, out = out, x
+        operator.sweep(x, out)
+        change = float((out - x).abs().max())
+        if change <= max(small, floor):
+            break
+    return change, operator.numpy(x)
+
+

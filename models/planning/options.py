@@ -1,0 +1,51 @@
+"""What a caller may ask of the planner, and how it reports progress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+Device = Literal["auto", "cpu", "cuda"]
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Accuracy and limits of one plan.
+
+    `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values are
+    computed more exactly than that, because ties between actions are decided on them. A plan that has not reached
+    `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto" takes a CUDA device
+    for large models when there is one.
+    """
+
+    epsilon: float = 1e-6
+    max_states: int = 50_000_000
+    max_bytes: int = 8 * 2**30
+    max_sweeps: int = 1_000_000
+    device: Device = "auto"
+
+    def __post_init__(self) -> None:
+        if not 0 < self.epsilon < 1:
+            raise ValueError("epsilon lies between 0 and 1")
+        if min(self.max_states, self.max_bytes, self.max_sweeps) < 1:
+            raise ValueError("limits are at least 1")
+        if self.device not in ("auto", "cpu", "cuda"):
+            raise ValueError("device is auto, cpu or cuda")
+
+
+Stage = Literal["compile", "probability", "steps", "evaluate"]
+
+
+class Progress(Protocol):
+    """Told about every sweep; an exception that it raises cancels the plan and reaches the caller of `plan`."""
+
+    def __call__(self, stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
+        """`sweep` counts from 1; the bounds are those of the initial state's value; `states` is what a sweep updates.
+
+        In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say nothing
+        yet (0 and infinity).
+        """
+
+
+def no_progress(stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:  # noqa: ARG001
+    """Tell nobody."""

@@ -1,0 +1,127 @@
+"""Maximal probability of reaching acceptance, with bounds that hold.
+
+Interval iteration: Haddad and Monmege, "Interval iteration algorithm for MDPs and IMDPs" (TCS 2018); Baier, Klein,
+Leuschner, Parker and Wunderlich, "Ensuring the reliability of your model checker: interval iteration for Markov decision
+processes" (CAV 2017). Nodes of probability 0 and 1 are settled by graph analysis. Each maximal end component of the rest
+is one unknown with the choices that leave it, so that every policy leaves the unknowns for sure and both bounds converge
+to the same, only, fixed point. Each sweep rounds its result outwards, as in Hartmanns, "Correct probabilistic model
+checking with floating-point arithmetic" (TACAS 2022), so that the bounds hold in floating point too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.planning.bellman import Bellman, threads
+from models.planning.choices import Choices, Vector, gather
+from models.planning.direct import DIRECT_LIMIT, probability_bounds
+from models.planning.end_components import end_components
+from models.planning.graph import Qualities
+from models.planning.options import Options, Progress, no_progress
+from models.planning.product import Product
+from models.planning.ragged import owners
+
+PRECISION = 1e-11
+"""Gap that is aimed at, well under any useful epsilon: ties between actions are decided on these values."""
+
+DIRECT_AFTER = 100
+"""Sweeps after which a small system is solved directly instead."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Probability:
+    """Bounds of the maximal probability, by node and column."""
+
+    lower: Vector  # [n + 2]
+    upper: Vector  # [n + 2]
+
+    @property
+    def gap(self) -> float:
+        """The largest difference of the bounds."""
+        return float((self.upper - self.lower).max())
+
+    @property
+    def estimate(self) -> Vector:
+        """[n + 2] the middle; the bounds themselves where they meet."""
+        middle: Vector = (self.lower + self.upper) / 2
+        return middle
+
+
+def maximal_probability(
+    product: Product, qualities: Qualities, initial: int, *, options: Options, progress: Progress = no_progress
+) -> Probability:
+    """Bound the maximal probability of acceptance from every node; `initial` is the one that progress reports.
+
+    The gap is at most `options.epsilon` everywhere unless `options.max_sweeps` came first.
+    """
+    lower = qualities.certain.astype(np.float64)
+    upper = qualities.certain.astype(np.float64)
+    maybe = qualities.possible & ~qualities.certain
+    if maybe.any():
+        unknown, choices = _quotient(product, maybe, lower)
+        low, high = iterate_intervals(choices, int(unknown[initial]), options=options, progress=progress)
+        lower[maybe] = low[unknown[maybe]]
+        upper[maybe] = high[unknown[maybe]]
+    return Probability(lower, upper)
+
+
+def _quotient(product: Product, maybe: NDArray[np.bool_], known: Vector) -> tuple[NDArray[np.int32], Choices]:
+    """The unknown of each node (-1 where known), and their choices: an end component is one unknown."""
+    component, stays = end_components(product, maybe)
+    nodes = np.flatnonzero(maybe)
+    group = np.where(component[nodes] >= 0, component[nodes], product.nodes + nodes)
+    unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
+    unknown[nodes] = np.unique(group, return_inverse=True)[1]
+    owner = unknown[owners(product.first_choice)]
+    chosen = np.flatnonzero((owner >= 0) & ~stays)
+    return unknown, gather(product, chosen, unknown=unknown, known=known, owner=owner[chosen], cost=0.0)
+
+
+def iterate_intervals(
+    choices: Choices, watched: int, *, options: Options, progress: Progress = no_progress
+) -> tuple[Vector, Vector]:
+    """Lower and upper bounds of the maximal values of choices under which every policy leaves the unknowns for sure.
+
+    `watched` is the unknown whose bounds progress reports; -1 for a value that is settled already.
+    """
+    operator = Bellman(choices, maximise=True, device=options.device)
+    lower, upper = operator.vector(0.0), operator.vector(1.0)
+    precision = min(PRECISION, options.epsilon)
+    place = int(operator.position[watched]) if watched >= 0 else -1
+    gap = 1.0
+    with threads(operator.outcomes):
+        for sweep in range(1, options.max_sweeps + 1):
+            previous, gap = gap, _narrow(operator, lower, upper)
+            if progress is not no_progress:
+                low, high = (float(lower[place]), float(upper[place])) if place >= 0 else (1.0, 1.0)
+                progress("probability", sweep, low, high, choices.unknowns)
+            if gap <= precision:
+                break
+            if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+                _solve_directly(operator, lower, upper)
+            if gap == previous and gap <= options.epsilon and sweep % DIRECT_AFTER == 0:
+                break  # as close as floating point gets
+    return operator.numpy(lower), operator.numpy(upper)
+
+
+def _narrow(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> float:
+    """One sweep of both bounds in place, rounded outwards; returns the largest gap."""
+    out = torch.empty_like(lower)
+    margin = operator.choices.roundoff
+    operator.sweep(lower, out)
+    torch.maximum(lower, out.mul_(1.0 - margin), out=lower)
+    operator.sweep(upper, out)
+    torch.minimum(upper, out.mul_(1.0 + margin), out=upper)
+    return float(torch.sub(upper, lower, out=out).max())
+
+
+def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> None:
+    """Tighten both bounds in place by the direct solver's, where it has any."""
+    bounds = probability_bounds(operator.choices, operator.greedy(lower, 0.0)[0])
+    if bounds is not None:
+        torch.maximum(lower, operator.vector(bounds[0]), out=lower)
+        torch.minimum(upper, operator.vector(bounds[1]), out=upper)

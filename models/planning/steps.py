@@ -1,0 +1,144 @@
+"""Among the policies of maximal probability, one with the fewest expected steps until the outcome is decided.
+
+A stochastic shortest path with unit costs (Bertsekas and Tsitsiklis, "An analysis of stochastic shortest path problems",
+1991) over the choices that keep the maximal probability, ending where the formula can no longer fail or can no longer be
+met. Staying undecided for ever is not optimal there, since it costs infinitely much.
+
+Value iteration starts from below, so its vector v satisfies v <= T v, and every step costs 1. If no node's value rises by
+more than r < 1 in a sweep, then for u = v / (1 - r):  T u = 1 + (T v - 1) / (1 - r) <= 1 + (v + r - 1) / (1 - r) = u,
+so v <= optimum <= v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over its own
+choices: it decides the outcome with probability one and needs at most v / (1 - r) expected steps. It can therefore not
+circle on a tie, and its values need no further evaluation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.planning.bellman import Bellman, threads
+from models.planning.choices import Choices, Vector, gather
+from models.planning.direct import DIRECT_LIMIT, Improver
+from models.planning.graph import Predecessors, Qualities, reach
+from models.planning.options import Options, Progress, no_progress
+from models.planning.probability import DIRECT_AFTER, Probability
+from models.planning.product import Product
+from models.planning.ragged import owners
+
+RESIDUAL = 1e-11
+"""Rise in a sweep at which iteration stops: the relative error of the expected steps."""
+
+TIE = 1e-9
+"""Relative difference of expected steps within which the first action is taken."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Steps:
+    """A policy and its expected steps until the outcome is decided, by node and column.
+
+    `upper` is infinite where iteration was cut short before it could bound anything; the policy still decides the
+    outcome with probability one.
+    """
+
+    chosen: NDArray[np.int32]  # [n]  choice of each node; -1 at nodes of probability 0
+    lower: Vector  # [n + 2]
+    upper: Vector  # [n + 2]
+
+
+def conserving(product: Product, qualities: Qualities, probability: Probability, slack: float) -> NDArray[np.bool_]:
+    """[C] the choices of undecided nodes that keep the maximal probability, up to `slack` where it is not known exactly.
+
+    At nodes of probability one no number is involved.
+    """
+    owner = owners(product.first_choice)
+    kept = qualities.certain[owner] & qualities.keeps_certain
+    maybe = np.flatnonzero((qualities.possible & ~qualities.certain)[owner]).astype(np.int32)
+    if len(maybe):
+        nothing = np.full(product.nodes + 2, -1, dtype=np.int32)
+        estimate = probability.estimate
+        worth = gather(product, maybe, unknown=nothing, known=estimate, owner=owner[maybe], cost=0.0).constant
+        kept[maybe] = worth >= estimate[owner[maybe]] - slack
+    return kept
+
+
+def fewest_steps(
+    product: Product,
+    graph: Predecessors,
+    qualities: Qualities,
+    kept: NDArray[np.bool_],
+    initial: int,
+    *,
+    options: Options,
+    progress: Progress = no_progress,
+) -> Steps | None:
+    """Minimise the expected steps over the choices `kept`; None if they cannot decide the outcome from every node."""
+    ends = np.flatnonzero(~qualities.possible | (np.arange(product.nodes + 2) >= product.nodes)).astype(np.int32)
+    reached = reach(graph, ends, allowed=kept)
+    if not reached.mask[:-2].all():
+        return None
+    nodes = np.flatnonzero(qualities.possible[:-2])
+    chosen = np.full(product.nodes, -1, dtype=np.int32)
+    lower, upper = np.zeros(product.nodes + 2), np.zeros(product.nodes + 2)
+    if not len(nodes):
+        return Steps(chosen, lower, upper)
+    unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
+    unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
+    rows = np.flatnonzero(kept)
+    none = np.zeros(product.nodes + 2)
+    owner = unknown[owners(product.first_choice)[rows]]
+    choices = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=1.0)
+    towards = np.searchsorted(rows, reached.choice[nodes]).astype(np.int32)
+    start = reached.distance[nodes].astype(np.float64)
+    policy, low, error = _solve(choices, start, towards, int(unknown[initial]), options, progress)
+    chosen[nodes] = rows[policy]
+    lower[nodes] = low
+    upper[nodes] = low / (1.0 - error) if error < 1.0 else np.inf
+    return Steps(chosen, lower, upper)
+
+
+def _solve(
+    choices: Choices,
+    start: Vector,
+    towards: NDArray[np.int32],
+    watched: int,
+    options: Options,
+    progress: Progress,
+) -> tuple[NDArray[np.int32], Vector, float]:
+    """The policy, its values from below and their relative error (see the module).
+
+    `start` is the distance in steps, a first lower bound; `towards` the policy that follows it, the last resort.
+    """
+    operator = Bellman(choices, maximise=False, device=options.device)
+    place = int(operator.position[watched]) if watched >= 0 else -1
+    x = operator.vector(start)
+    out = torch.empty_like(x)
+    with threads(operator.outcomes):
+        for sweep in range(1, options.max_sweeps + 1):
+            operator.sweep(x, out)
+            rise = float((out - x).max())
+            x, out = torch.maximum(x, out, out=out), x
+            if progress is not no_progress:
+                value = float(x[place]) if place >= 0 else 0.0
+                progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
+            if rise <= RESIDUAL or (sweep % DIRECT_AFTER == 0 and rise <= choices.roundoff * float(x.max())):
+                break
+            if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+                solved = _solve_directly(operator, x, towards)
+                x = x if solved is None else solved
+        policy, error = operator.greedy(x, TIE)
+    return (policy if error < 1.0 else towards), operator.numpy(x), error
+
+
+def _solve_directly(operator: Bellman, x: torch.Tensor, towards: NDArray[np.int32]) -> torch.Tensor | None:
+    """The optimum from policy iteration, made a lower bound: if x >= T x - r then x / (1 + r) <= T (x / (1 + r))."""
+    greedy, rise = operator.greedy(x, TIE)
+    improver = Improver(operator.choices, maximise=False)
+    proposal = improver.improve(greedy if rise < 1.0 else towards)
+    if proposal is None:
+        return None
+    fall = float((proposal.value - improver.best(improver.values(proposal.value))[0]).max())
+    fall = max(fall, 0.0) + operator.choices.roundoff * float(proposal.value.max())
+    return torch.maximum(x, operator.vector(proposal.value / (1.0 + fall)))

@@ -1,0 +1,144 @@
+"""Templated LTL: lifted LTL tied to the argument positions of a contextual query, and its evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from models.errors import Place
+from models.logic import Formula, Name, Parameter, Term, atoms, substitute
+from models.queries.contextual_query import ContextualQuery
+from models.queries.errors import AmbiguousGroundingError, ArityMismatchError
+from models.world import (
+    Candidate,
+    Environment,
+    PartOfSpeech,
+    TypeMismatchError,
+    UnknownObjectError,
+    UnknownPropositionError,
+    ground,
+    resolve,
+)
+
+Kinds = frozenset[str]
+"""Class names or attribute types an argument may have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """Templated LTL of one task class: `F (in($1, $2) & F (in($1, $2) & at($2, $3)))` for `ship`.
+
+    `kinds[i]` are the kinds that argument `i + 1` may have, from the propositional functions it feeds.
+    """
+
+    task: str
+    formula: Formula
+    lifted: Formula
+    kinds: tuple[Kinds, ...]
+
+    @property
+    def arity(self) -> int:
+        """Number of arguments of the task."""
+        return len(self.kinds)
+
+
+@dataclass(frozen=True, slots=True)
+class Binding:
+    """What one argument grounded to: 1-based position, phrase, object or value, and why."""
+
+    position: int
+    phrase: str
+    candidate: Candidate
+
+
+@dataclass(frozen=True, slots=True)
+class GroundedTask:
+    """A contextual query evaluated: grounded LTL and the binding of every argument."""
+
+    query: ContextualQuery
+    formula: Formula
+    bindings: tuple[Binding, ...]
+
+
+def parameter_kinds(formula: Formula, environment: Environment, arity: int) -> tuple[Kinds, ...]:
+    """For each position, the kinds that every propositional function it feeds accepts in this environment.
+
+    Raises:
+        UnknownPropositionError: the environment lacks a propositional function of the formula.
+        TypeMismatchError: a parameter feeds functions that share no kind.
+    """
+    kinds: list[Kinds | None] = [None] * arity
+    for atom in atoms(formula):
+        positions = [(place, term) for place, term in enumerate(atom.arguments) if isinstance(term, Parameter)]
+        if not positions:
+            continue
+        function = environment.functions.get(atom.function)
+        if function is None or len(function.parameters) != len(atom.arguments):
+            raise UnknownPropositionError(
+                f"the template needs {atom.function} with {len(atom.arguments)} arguments, "
+                f"which {environment.name} does not have"
+            )
+        for place, term in positions:
+            accepted, index = function.parameters[place].kinds, term.position - 1
+            before = kinds[index]
+            kinds[index] = accepted if before is None else before & accepted
+            if not kinds[index]:
+                raise TypeMismatchError(f"${term.position} feeds propositional functions that share no kind")
+    return tuple(frozenset() if found is None else found for found in kinds)
+
+
+def evaluate(
+    template: Template,
+    query: ContextualQuery,
+    environment: Environment,
+    *,
+    parts_of_speech: Sequence[PartOfSpeech | None] | None = None,
+) -> GroundedTask:
+    """Ground the query's arguments and put them into the template, all at once (paper, § Lifted LTL and Templated LTL).
+
+    Args:
+        parts_of_speech: per argument what a tagger said of it in its sentence, where that is known.
+
+    Raises:
+        ArityMismatchError: the query has more or fewer arguments than the template.
+        UnknownObjectError: a phrase names nothing in the environment.
+        TypeMismatchError: a phrase names only things that the place does not take.
+        AmbiguousGroundingError: a phrase fits several things.
+        UnknownPropositionError: the environment lacks a propositional function of the template.
+    """
+    if len(query.arguments) != template.arity:
+        detail = f"{query.task} takes {template.arity} arguments, not {len(query.arguments)}"
+        raise ArityMismatchError(detail, places=[Place("", detail)])
+    kinds = parameter_kinds(template.formula, environment, template.arity)
+    tags = parts_of_speech or [None] * template.arity
+    bindings = tuple(
+        Binding(index + 1, phrase, _ground_argument(query, index, kinds[index], environment, tags[index]))
+        for index, phrase in enumerate(query.arguments)
+    )
+    terms: dict[Term, Term] = {Parameter(b.position): Name(b.candidate.symbol.name) for b in bindings}
+    return GroundedTask(query, resolve(substitute(template.formula, terms), environment), bindings)
+
+
+def _ground_argument(
+    query: ContextualQuery, index: int, kinds: Kinds, environment: Environment, pos: PartOfSpeech | None
+) -> Candidate:
+    phrase, pointer = query.arguments[index], f"/arguments/{index}"
+    candidates = ground(phrase, environment, kinds=kinds, pos=pos).candidates
+    if len(candidates) == 1:
+        return candidates[0]
+    if candidates:
+        names = ", ".join(candidate.symbol.name for candidate in candidates)
+        detail = f'"{phrase}" fits several in {environment.name}: {names}'
+        raise AmbiguousGroundingError(
+            detail, position=index + 1, phrase=phrase, candidates=candidates, places=[Place(pointer, detail)]
+        )
+    wanted = " or ".join(sorted(kinds))
+    elsewhere = ground(phrase, environment).candidates
+    if elsewhere:
+        other = elsewhere[0].symbol
+        detail = (
+            f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
+        )
+        raise TypeMismatchError(detail, places=[Place(pointer, detail)])
+    detail = f'nothing in {environment.name} is called "{phrase}"; argument {index + 1} of {query.task} is a {wanted}'
+    raise UnknownObjectError(detail, places=[Place(pointer, detail)])

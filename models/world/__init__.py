@@ -1,0 +1,52 @@
+"""Object-oriented worlds: the language, built-in domains, compiled dynamics, grounding of names and phrases."""
+
+from models.world.builders import navigation_spec, toys_spec
+from models.world.domain import Function, FunctionParameter
+from models.world.environment import Environment, compile_world
+from models.world.errors import (
+    StateError,
+    TypeMismatchError,
+    UnknownObjectError,
+    UnknownPropositionError,
+    WorldError,
+)
+from models.world.explanation import explain
+from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
+from models.world.library import builtin_environments
+from models.world.loading import load_environment
+from models.world.resolution import atom_symbols, resolve
+from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
+from models.world.vocabulary import Symbol
+from models.world.world import Outcomes, State, Variable, World
+
+__all__ = [
+    "Candidate",
+    "DomainSpec",
+    "Environment",
+    "EnvironmentSpec",
+    "ExplicitSpec",
+    "Function",
+    "FunctionParameter",
+    "Grounding",
+    "OomdpSpec",
+    "Outcomes",
+    "PartOfSpeech",
+    "State",
+    "StateError",
+    "Symbol",
+    "TypeMismatchError",
+    "UnknownObjectError",
+    "UnknownPropositionError",
+    "Variable",
+    "World",
+    "WorldError",
+    "atom_symbols",
+    "builtin_environments",
+    "compile_world",
+    "explain",
+    "ground",
+    "load_environment",
+    "navigation_spec",
+    "resolve",
+    "toys_spec",
+]

@@ -1,0 +1,204 @@
+"""Phrases of a command to the symbols of an environment: one, several with why, or none.
+
+A phrase is tried in three ways, and the first that finds something decides:
+
+1. it is the name of a symbol, or a synonym of one ("cylinder", "the H&M", "orange");
+2. the same, but for a plural ("the cylinders");
+3. it describes objects: a head noun (the end of a name or synonym, the class, "one") with attribute values
+and further words of the name in any order ("the small red bucket", "toy that is red", "red").
+
+Kinds narrow all three. Where kinds leave both a value and an object with the name, the part of speech
+decides: an adjective is a value, a noun an object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from models.world.environment import Environment
+from models.world.names import listing, singular, words
+from models.world.vocabulary import Symbol, Vocabulary
+
+PartOfSpeech = Literal["noun", "adjective"]
+_DETERMINERS = frozenset(
+    {
+        "the",
+        "a",
+        "an",
+        "this",
+        "that",
+        "these",
+        "those",
+        "my",
+        "your",
+        "his",
+        "her",
+        "its",
+        "our",
+        "their",
+        "some",
+    }
+)
+_FILLERS = _DETERMINERS | {
+    "which",
+    "is",
+    "are",
+    "colored",
+    "shaped",
+    "sized",
+    "with",
+    "of",
+    "in",
+    "color",
+    "and",
+}
+_GENERIC = frozenset({"one", "ones", "thing", "things", "object", "objects", "item", "items"})
+_LONGEST = 20  # words
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A symbol that a phrase may mean, and why, for people."""
+
+    symbol: Symbol
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Grounding:
+    """What a phrase may mean; the candidates are in the environment's order of symbols."""
+
+    phrase: str
+    candidates: tuple[Candidate, ...]
+
+
+def ground(
+    phrase: str,
+    environment: Environment,
+    *,
+    kinds: frozenset[str] | None = None,
+    pos: PartOfSpeech | None = None,
+) -> Grounding:
+    """The symbols, of the given kinds if any, that a phrase may mean."""
+    vocabulary = environment.vocabulary
+    spoken = _spoken(phrase)
+    if not spoken or len(spoken) > _LONGEST:
+        return Grounding(phrase, ())
+    symbols = vocabulary.symbols(*kinds) if kinds is not None else vocabulary.symbols()
+    symbols = symbols if kinds is None or kinds else ()
+    for compare in (_same, _same_singular):
+        found = _called(spoken, symbols, vocabulary, compare)
+        if found:
+            return Grounding(phrase, _decided(found, vocabulary, pos))
+    return Grounding(phrase, tuple(_described(spoken, symbols, vocabulary)))
+
+
+def _spoken(phrase: str) -> tuple[str, ...]:
+    """The words of a phrase without leading determiners, unless nothing else is left."""
+    all_words = words(phrase[:1_000])
+    start = next((i for i, word in enumerate(all_words) if word not in _DETERMINERS), 0)
+    return all_words[start:]
+
+
+def _same(left: Iterable[str], right: Iterable[str]) -> bool:
+    return tuple(left) == tuple(right)
+
+
+def _same_singular(left: Iterable[str], right: Iterable[str]) -> bool:
+    return [singular(word) for word in left] == [singular(word) for word in right]
+
+
+def _called(
+    spoken: tuple[str, ...],
+    symbols: Iterable[Symbol],
+    vocabulary: Vocabulary,
+    compare: Callable[[Iterable[str], Iterable[str]], bool],
+) -> list[Candidate]:
+    """The symbols with this name or synonym. Both count alike: who gives a synonym wants it understood."""
+    found: list[Candidate] = []
+    for symbol in symbols:
+        if compare(_spoken(symbol.name), spoken):
+            found.append(Candidate(symbol, _name_reason(symbol, vocabulary)))
+            continue
+        synonyms = vocabulary.synonyms.get(symbol, ())
+        synonym = next((other for other in synonyms if compare(_spoken(other), spoken)), None)
+        if synonym is not None:
+            found.append(Candidate(symbol, f"{synonym} is a synonym of {symbol.name}"))
+    return found
+
+
+def _name_reason(symbol: Symbol, vocabulary: Vocabulary) -> str:
+    kind = symbol.kind.replace("_", " ")
+    return f"the {kind} {symbol.name}" if symbol in vocabulary.values else f"a {kind} named {symbol.name}"
+
+
+def _decided(
+    found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech | None
+) -> tuple[Candidate, ...]:
+    values = [candidate for candidate in found if candidate.symbol in vocabulary.values]
+    objects = [candidate for candidate in found if candidate.symbol not in vocabulary.values]
+    if pos == "adjective" and values:
+        return tuple(values)
+    if pos == "noun" and objects:
+        return tuple(objects)
+    return (*objects, *values)
+
+
+def _described(spoken: tuple[str, ...], symbols: Iterable[Symbol], vocabulary: Vocabulary) -> list[Candidate]:
+    content = tuple(word for word in spoken if word not in _FILLERS)
+    if not content:
+        return []
+    described = [_describe(content, symbol, vocabulary) for symbol in symbols]
+    found = [candidate for candidate in described if candidate is not None]
+    typed = [value for value in symbols if value in vocabulary.values and _typed_value(spoken, value)]
+    return found or [Candidate(value, _name_reason(value, vocabulary)) for value in typed]
+
+
+def _typed_value(spoken: tuple[str, ...], value: Symbol) -> bool:
+    """ "the color red", "red color"."""
+    kind, name = words(value.kind), words(value.name)
+    return spoken in ((*kind, *name), (*name, *kind))
+
+
+def _describe(content: tuple[str, ...], symbol: Symbol, vocabulary: Vocabulary) -> Candidate | None:
+    """The object as a candidate if every word of the phrase says something of it."""
+    if symbol in vocabulary.values:
+        return None
+    rest = [singular(word) for word in content]
+    nouns = {singular(w) for word in vocabulary.class_words.get(symbol.kind, ()) for w in words(word)[-1:]}
+    names = [[singular(w) for w in words(n)] for n in (symbol.name, *vocabulary.synonyms.get(symbol, ()))]
+    traits = {
+        attribute: [singular(w) for w in words(value.name)]
+        for attribute, value in vocabulary.static.get(symbol, {}).items()
+        if value in vocabulary.values
+    }
+    used = {attribute for attribute, trait in traits.items() if _contains(rest, trait)}
+    unexplained = {word for word in rest if not any(word in traits[attribute] for attribute in used)}
+    generic = {singular(word) for word in _GENERIC}
+    partial = next(
+        (name for name in names if name and name[-1] in rest and unexplained - nouns - generic <= {*name}),
+        None,
+    )
+    if unexplained - nouns - generic and partial is None:
+        return None
+    if not used and not (unexplained & nouns) and partial is None:
+        return None
+    return Candidate(
+        symbol, _description(symbol, {a: vocabulary.static[symbol][a].name for a in traits if a in used})
+    )
+
+
+def _contains(spoken: list[str], trait: list[str]) -> bool:
+    return any(spoken[start : start + len(trait)] == trait for start in range(len(spoken) - len(trait) + 1))
+
+
+def _description(symbol: Symbol, traits: dict[str, str]) -> str:
+    kind = symbol.kind.replace("_", " ")
+    if not traits:
+        return f"a {kind} named {symbol.name}"
+    said = listing(
+        (f"{attribute.replace('_', ' ')} is {value}" for attribute, value in traits.items()), "and"
+    )
+    return f"a {kind} whose {said}"

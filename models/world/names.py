@@ -1,0 +1,72 @@
+"""Names as people write them: normal forms, near misses, quoting."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+import unicodedata
+from collections.abc import Iterable
+
+IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_WORD = re.compile(r"[^\W_]+")
+_SPELLINGS = {"colour": "color", "colours": "colors", "coloured": "colored", "grey": "gray"}
+NONE = "none"
+"""The value of an attribute that has no value; no object or attribute value may have this name."""
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The words of a name or phrase: no case, punctuation, underscores or British spellings.
+
+    `"H&M (2nd floor)"` -> `("h", "m", "2nd", "floor")`; `"the_Child's toy"` -> `("the", "childs", "toy")`.
+    """
+    plain = (
+        unicodedata.normalize("NFKC", text)
+        .casefold()
+        .replace("'", "")
+        .replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
+    )
+    return tuple(_SPELLINGS.get(word, word) for word in _WORD.findall(plain))
+
+
+def singular(word: str) -> str:
+    """A simple singular: `boxes` -> `box`, `berries` -> `berry`, `cubes` -> `cube`; `glass` stays."""
+    if len(word) > 4 and word.endswith("ies"):
+        return word[:-3] + "y"
+    if len(word) > 4 and word.endswith(("xes", "ches", "shes", "sses")):
+        return word[:-2]
+    if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
+        return word[:-1]
+    return word
+
+
+def hint(name: str, known: Iterable[str]) -> str:
+    """` (did you mean ...?)` for the closest known name, else the known names when they are few, else
+    nothing.
+    """
+    names = list(dict.fromkeys(known))
+    close = difflib.get_close_matches(name[:200], names[:2_000], n=1, cutoff=0.6)
+    if close:
+        return f" (did you mean {close[0]}?)"
+    if 0 < len(names) <= 8:
+        return f" (known: {', '.join(names)})"
+    return ""
+
+
+def quoted(name: str) -> str:
+    """The name, in double quotes unless it is an identifier."""
+    return name if IDENTIFIER.match(name) else json.dumps(name, ensure_ascii=False)
+
+
+def application(name: str, arguments: Iterable[str]) -> str:
+    """`pick(cylinder)`, `north`, `drive("H&M (2nd floor)")`: unambiguous, whatever the names hold."""
+    listed = ", ".join(quoted(argument) for argument in arguments)
+    return f"{name}({listed})" if listed else name
+
+
+def listing(items: Iterable[str], word: str = "or") -> str:
+    """`a`, `a or b`, `a, b or c`."""
+    names = list(items)
+    return (
+        names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"
+    )

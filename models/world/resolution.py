@@ -1,0 +1,112 @@
+"""Formulas against an environment: which function, which objects, which compound names."""
+
+from __future__ import annotations
+
+from models.logic.formula import Atom, Formula, Name, Parameter, map_atoms
+from models.world.compound import readings
+from models.world.domain import Function, FunctionParameter
+from models.world.environment import Environment
+from models.world.errors import TypeMismatchError, UnknownObjectError, UnknownPropositionError
+from models.world.names import application, hint, listing, words
+from models.world.vocabulary import Symbol, Vocabulary
+
+
+def resolve(formula: Formula, environment: Environment) -> Formula:
+    """The formula with compound names read back and every name canonical: each atom is a function of the
+    environment applied to its own names; Parameter terms are left alone.
+
+    Raises UnknownPropositionError, UnknownObjectError or TypeMismatchError.
+    """
+    return map_atoms(formula, lambda atom: resolve_atom(atom, environment.vocabulary))
+
+
+def atom_symbols(atom: Atom, environment: Environment) -> tuple[Symbol | None, ...]:
+    """The typed symbol at each argument of an atom; None for a Parameter term. Raises as `resolve`."""
+    return bind(atom, environment.vocabulary)
+
+
+def resolve_atom(atom: Atom, vocabulary: Vocabulary) -> Atom:
+    """`resolve` for one atom."""
+    if not atom.arguments and not _is_nullary(atom, vocabulary):
+        atom = _compound(atom, vocabulary)
+    symbols = bind(atom, vocabulary)
+    terms = (Name(s.name) if s else term for s, term in zip(symbols, atom.arguments, strict=True))
+    return Atom(atom.function, tuple(terms))
+
+
+def bind(atom: Atom, vocabulary: Vocabulary) -> tuple[Symbol | None, ...]:
+    """`atom_symbols` in a vocabulary."""
+    function = vocabulary.functions.get(atom.function)
+    if function is None:
+        known = vocabulary.functions
+        raise UnknownPropositionError(
+            f"the environment has no propositional function {atom.function}{hint(atom.function, known)}"
+        )
+    if len(atom.arguments) != len(function.parameters):
+        signature = _signature(function)
+        raise UnknownPropositionError(
+            f"{signature} takes {len(function.parameters)} arguments, not {len(atom.arguments)}"
+        )
+    return tuple(
+        None if isinstance(term, Parameter) else _argument(term.text, parameter, function, vocabulary)
+        for term, parameter in zip(atom.arguments, function.parameters, strict=True)
+    )
+
+
+def bind_names(atom: Atom, vocabulary: Vocabulary) -> tuple[Symbol, ...]:
+    """`bind` for an atom without Parameter terms. Raises UnknownObjectError for one with them."""
+    symbols = bind(atom, vocabulary)
+    bound = tuple(symbol for symbol in symbols if symbol is not None)
+    if len(bound) < len(symbols):
+        raise UnknownObjectError(f"{atom.function} is applied to a parameter; give it an object")
+    return bound
+
+
+def _is_nullary(atom: Atom, vocabulary: Vocabulary) -> bool:
+    function = vocabulary.functions.get(atom.function)
+    return function is not None and not function.parameters
+
+
+def _compound(atom: Atom, vocabulary: Vocabulary) -> Atom:
+    found = readings(atom.function, vocabulary)
+    if len(found) == 1:
+        return found[0]
+    if found:
+        ways = listing(
+            application(a.function, (t.text for t in a.arguments if isinstance(t, Name))) for a in found
+        )
+        raise UnknownPropositionError(f"{atom.function} can be read as {ways}: write the one that is meant")
+    return atom
+
+
+def _argument(name: str, parameter: FunctionParameter, function: Function, vocabulary: Vocabulary) -> Symbol:
+    named = vocabulary.named(name) or _loosely_named(name, vocabulary)
+    fitting = [symbol for symbol in named if symbol.kind in parameter.kinds]
+    if len(fitting) == 1:
+        return fitting[0]
+    kinds = listing(sorted(parameter.kinds))
+    place = f"{parameter.name} of {_signature(function)}"
+    if len(fitting) > 1:
+        choices = listing((f"{symbol.name} ({symbol.kind})" for symbol in fitting), "and")
+        raise TypeMismatchError(f"{place} could be any of {choices}: {name} does not tell them apart")
+    if named:
+        actual = listing(dict.fromkeys(symbol.kind for symbol in named), "and")
+        raise TypeMismatchError(f"{place} must be {kinds}, but {name} is {actual}")
+    known = [symbol.name for symbol in vocabulary.symbols(*parameter.kinds)]
+    raise UnknownObjectError(f"nothing is called {name}{hint(name, known)}; {place} must be {kinds}")
+
+
+def _loosely_named(name: str, vocabulary: Vocabulary) -> tuple[Symbol, ...]:
+    """Symbols with this name or synonym up to case, spaces and punctuation."""
+    wanted = words(name)
+    if not wanted:
+        return ()
+    return tuple(
+        symbol
+        for symbol in vocabulary.symbols()
+        if any(words(other) == wanted for other in (symbol.name, *vocabulary.synonyms.get(symbol, ())))
+    )
+
+
+def _signature(function: Function) -> str:
+    return f"{function.name}({', '.join(parameter.name for parameter in function.parameters)})"

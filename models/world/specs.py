@@ -1,0 +1,184 @@
+"""The shape of domains and environments as data; also the HTTP schema.
+
+Only the shape is checked here (which keys, which plain types). What the names and expressions mean is checked
+by `domain.read_domain` and `loading.load_environment`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, model_validator
+
+from models.world.limits import MAX_EXPLICIT_STATES
+
+
+class _Spec(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, populate_by_name=True)
+
+
+class ParameterSpec(_Spec):
+    """A number that an environment may set."""
+
+    default: float = Field(allow_inf_nan=False, description="Value unless the environment gives another.")
+    minimum: float | None = Field(None, allow_inf_nan=False, description="Least value allowed.")
+    maximum: float | None = Field(None, allow_inf_nan=False, description="Greatest value allowed.")
+
+
+class ClassSpec(_Spec):
+    """A class of objects and the attributes that its objects have."""
+
+    static: dict[str, str] = Field(
+        default_factory=dict,
+        description="Attributes that never change: name to kinds, for example `cell | none`.",
+    )
+    state: dict[str, str] = Field(
+        default_factory=dict,
+        description="Attributes that actions change: name to kinds. Each is a state variable.",
+    )
+    words: list[str] = Field(
+        default_factory=list, description="Nouns for any object of the class, besides its name."
+    )
+
+
+class DefinitionSpec(_Spec):
+    """A named expression for use in other expressions."""
+
+    arguments: list[str] = Field(
+        default_factory=list, description="`name: kinds` each, for example `x: box | toy`."
+    )
+    expression: str = Field(alias="is", description="The value.")
+
+
+class FunctionSpec(DefinitionSpec):
+    """A propositional function: a Boolean expression that formulas may use."""
+
+    says: str | None = Field(
+        None, description="English reading with the arguments in braces: `{x} is at {c}`."
+    )
+    denies: str | None = Field(
+        None, description="English reading of the negation; derived from `says` by default."
+    )
+    display: list[str] = Field(default_factory=list, description="Compound names of its atoms: `{x}_at_{c}`.")
+
+
+class OutcomeSpec(_Spec):
+    """One thing that may happen when an action is done."""
+
+    probability: str = Field("1", description="Numeric expression.")
+    set: dict[str, str] = Field(
+        default_factory=dict,
+        description="`object.attribute` to its new value; all expressions read the state before.",
+    )
+
+
+class ActionSpec(_Spec):
+    """An action of the robot."""
+
+    arguments: list[str] = Field(default_factory=list, description="`name: kinds` each.")
+    when: str = Field("true", description="Boolean expression: where the action is possible.")
+    outcomes: list[OutcomeSpec] = Field(
+        min_length=1, description="Their probabilities sum to 1 where it is possible."
+    )
+
+
+class DomainSpec(_Spec):
+    """A kind of world: classes, propositional functions, actions."""
+
+    name: str = Field(description="Name of the domain.")
+    parameters: dict[str, ParameterSpec] = Field(
+        default_factory=dict, description="Numbers environments may set."
+    )
+    attributes: dict[str, list[str]] = Field(
+        default_factory=dict, description="Attribute types and their values."
+    )
+    classes: dict[str, ClassSpec] = Field(description="Classes of objects.")
+    constants: dict[str, str] = Field(
+        default_factory=dict, description="Objects that every environment has: name to class."
+    )
+    define: dict[str, DefinitionSpec] = Field(default_factory=dict, description="Named expressions.")
+    functions: dict[str, FunctionSpec] = Field(default_factory=dict, description="Propositional functions.")
+    actions: dict[str, ActionSpec] = Field(default_factory=dict, description="Actions.")
+    constraints: list[str] = Field(
+        default_factory=list, description="Boolean expressions true in every legal state."
+    )
+
+
+class ObjectSpec(_Spec):
+    """An object."""
+
+    class_: str = Field(alias="class", description="Its class.")
+    synonyms: list[str] = Field(default_factory=list, description="Other names people use for it.")
+    attributes: dict[str, str] = Field(default_factory=dict, description="Values of its static attributes.")
+
+
+class GridSpec(_Spec):
+    """Cells drawn as a map; sets their `north`, `south`, `east` and `west`."""
+
+    class_: str = Field(alias="class", description="The class of the cells.")
+    map: list[str] = Field(
+        min_length=1,
+        description="Rows from the north: `#` no cell, `.` a cell with a generated name, others as in `names`.",
+    )
+    names: dict[str, str] = Field(
+        default_factory=dict, description="Character of the map to the cell's name."
+    )
+    walls: list[list[str]] = Field(
+        default_factory=list, description="Pairs of neighbouring cells with a wall between."
+    )
+
+
+class OomdpSpec(_Spec):
+    """An environment of an object-oriented MDP domain: exactly one of `domain` and `domain_spec`."""
+
+    kind: Literal["oomdp"] = "oomdp"
+    name: str = Field(description="Name of the environment.")
+    domain: str | None = Field(None, description="Name of a built-in domain.")
+    domain_spec: DomainSpec | None = Field(None, description="The domain, written out.")
+    parameters: dict[str, Annotated[float, Field(allow_inf_nan=False)]] = Field(
+        default_factory=dict, description="Values of the domain's parameters."
+    )
+    values: dict[str, list[str]] = Field(default_factory=dict, description="More values of attribute types.")
+    grid: GridSpec | None = Field(None, description="Cells drawn as a map.")
+    objects: dict[str, ObjectSpec] = Field(default_factory=dict, description="Objects by name.")
+    state: dict[str, dict[str, str]] = Field(
+        default_factory=dict, description="Initial state: object to state attribute to value."
+    )
+
+    @model_validator(mode="after")
+    def _one_domain(self) -> Self:
+        if (self.domain is None) == (self.domain_spec is None):
+            raise ValueError("give exactly one of domain and domain_spec")
+        return self
+
+
+class TransitionSpec(_Spec):
+    """What one action does in one state."""
+
+    source: int = Field(alias="from", ge=0, description="State in which the action is possible.")
+    action: str = Field(min_length=1, description="Name of the action.")
+    to: list[
+        Annotated[list[Annotated[float, Field(allow_inf_nan=False)]], Field(min_length=2, max_length=2)]
+    ] = Field(min_length=1, description="Pairs of successor state and probability.")
+
+
+class ExplicitSpec(_Spec):
+    """A Markov decision process listed state by state."""
+
+    kind: Literal["explicit"]
+    name: str = Field(description="Name of the environment.")
+    states: int = Field(ge=1, le=MAX_EXPLICIT_STATES, description="Number of states.")
+    initial: int = Field(0, ge=0, description="Initial state.")
+    labels: dict[str, list[int]] = Field(
+        default_factory=dict, description="Nullary proposition to the states in which it holds."
+    )
+    transitions: list[TransitionSpec] = Field(
+        default_factory=list, description="Transitions; the rest do not exist."
+    )
+
+
+EnvironmentSpec = Annotated[OomdpSpec | ExplicitSpec, Field(discriminator="kind")]
+"""An environment, told apart by `kind`."""
+
+ENVIRONMENT: TypeAdapter[OomdpSpec | ExplicitSpec] = TypeAdapter(EnvironmentSpec)
+DOMAIN = TypeAdapter(DomainSpec)

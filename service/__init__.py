@@ -1,0 +1,1 @@
+"""The shell around the core: HTTP, the store, the worker processes, the command line."""

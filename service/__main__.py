@@ -1,0 +1,126 @@
+"""The command line: `cqltl serve | learn | translate | plan | openapi`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from service.settings import Settings
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the result is the exit status: 0 done, 1 refused, 2 not understood."""
+    options = _parser().parse_args(arguments)
+    try:
+        settings = Settings()
+    except ValidationError as error:
+        for item in error.errors():
+            print(f"CQLTL_{'_'.join(map(str, item['loc'])).upper()}: {item['msg']}", file=sys.stderr)
+        return 2
+    run = {"serve": _serve, "openapi": _openapi}.get(options.command, _request)
+    return run(settings, options)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="cqltl", description="English robot commands to plans.")
+    commands = parser.add_subparsers(dest="command", required=True)
+
+    serve = commands.add_parser("serve", help="migrate the store and serve over HTTP")
+    serve.add_argument("--host", help="address to bind (CQLTL_HOST, 127.0.0.1)")
+    serve.add_argument("--port", type=int, help="port to bind, 0 for any free one (CQLTL_PORT, 8000)")
+
+    translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
+    translate.add_argument("text")
+    translate.add_argument("--environment", help="name of a stored environment; without it there is no LTL")
+    translate.add_argument("--candidates", type=int, default=1, help="how many readings to print")
+
+    learn = _remote(commands.add_parser("learn", help="learn a task class from a contextual query and its LTL"))
+    learn.add_argument("contextual_query")
+    learn.add_argument("ltl")
+    learn.add_argument("--environment", required=True)
+    learn.add_argument("--example", dest="examples", action="append", default=[], help="an utterance of the query")
+    learn.add_argument("--replace", action="store_true", help="replace another template of the task")
+
+    plan = _remote(commands.add_parser("plan", help="a policy for a command, a contextual query or a formula"))
+    what = plan.add_mutually_exclusive_group(required=True)
+    what.add_argument("text", nargs="?")
+    what.add_argument("--contextual-query")
+    what.add_argument("--ltl")
+    where = plan.add_mutually_exclusive_group(required=True)
+    where.add_argument("--environment")
+    where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
+
+    document = commands.add_parser("openapi", help="print the OpenAPI document")
+    document.add_argument("--output", type=Path, help="write it to this file")
+    document.add_argument("--check", type=Path, help="fail when this file differs from it")
+    return parser
+
+
+def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
+    parser.add_argument("--server", help="address of a running server; without it the store is used directly")
+    return parser
+
+
+def _serve(settings: Settings, options: argparse.Namespace) -> int:
+    from service.server import serve
+
+    serve(settings, host=options.host or settings.host, port=settings.port if options.port is None else options.port)
+    return 0
+
+
+def _request(settings: Settings, options: argparse.Namespace) -> int:
+    """Send the command as the request it stands for, and print the answer."""
+    from service.client import UnreachableError, post
+
+    body = {
+        name: value
+        for name, value in vars(options).items()
+        if name not in ("command", "server", "environment_file") and value not in (None, [], False)
+    }
+    if getattr(options, "environment_file", None) is not None:
+        body["environment_spec"] = _read_environment(options.environment_file)
+    try:
+        status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
+    except UnreachableError as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
+    return 0 if status < 400 else 1
+
+
+def _read_environment(path: Path) -> Any:
+    import yaml
+
+    try:
+        return yaml.safe_load(path.read_text(encoding="utf-8"))  # JSON is YAML
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        sys.exit(f"{path}: {error}")
+
+
+def _openapi(settings: Settings, options: argparse.Namespace) -> int:
+    import yaml
+
+    from service.app import create_app
+
+    document = create_app(settings).openapi()
+    text = yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=100)
+    if options.check is not None:
+        if options.check.read_text(encoding="utf-8") == text:
+            return 0
+        print(f"{options.check} is not what the app serves; `make openapi` writes it anew", file=sys.stderr)
+        return 1
+    if options.output is not None:
+        options.output.write_text(text, encoding="utf-8")
+    else:
+        print(text, end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

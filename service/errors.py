@@ -1,0 +1,85 @@
+"""What the service itself refuses, beside what the core refuses.
+
+CqltlError
+├── NotFoundError
+│   ├── UnknownEnvironmentError
+│   ├── UnknownTemplateError
+│   └── UnknownPolicyError
+├── TemplateConflictError      another template is stored for the task
+├── EnvironmentExistsError     an environment of that name is stored
+├── NotUnderstoodError         no stored task fits the command to plan
+├── AmbiguousCommandError      the command to plan fits several objects
+├── OutOfTimeError             a budget of time was spent
+├── OverloadedError            too many requests wait already
+└── NotReadyError              the store does not answer
+"""
+
+from __future__ import annotations
+
+from models.errors import CqltlError
+
+
+class NotFoundError(CqltlError):
+    """What the request names is not stored."""
+
+    slug = "not-found"
+
+
+class UnknownEnvironmentError(NotFoundError):
+    """No environment of this name is stored."""
+
+    slug = "unknown-environment"
+
+
+class UnknownTemplateError(NotFoundError):
+    """No template is stored for this task."""
+
+    slug = "unknown-template"
+
+
+class UnknownPolicyError(NotFoundError):
+    """No policy with this id is stored."""
+
+    slug = "unknown-policy"
+
+
+class TemplateConflictError(CqltlError):
+    """The task has another template, and the request did not say to replace it."""
+
+    slug = "template-conflict"
+
+
+class EnvironmentExistsError(CqltlError):
+    """An environment of this name is stored already."""
+
+    slug = "environment-exists"
+
+
+class NotUnderstoodError(CqltlError):
+    """The command to plan fits no stored task."""
+
+    slug = "not-understood"
+
+
+class AmbiguousCommandError(CqltlError):
+    """The command to plan could mean several things."""
+
+    slug = "ambiguous-command"
+
+
+class OutOfTimeError(CqltlError):
+    """The work was stopped at its time limit."""
+
+    slug = "out-of-time"
+
+
+class OverloadedError(CqltlError):
+    """Too many requests wait for a worker."""
+
+    slug = "overloaded"
+
+
+class NotReadyError(CqltlError):
+    """The service cannot do its work yet, or no longer."""
+
+    slug = "not-ready"

@@ -1,0 +1,49 @@
+"""What routes receive, and how they document their refusals."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import Depends, Query, Request
+
+from service.http.problems import MEDIA_TYPE, STATUS, Problem
+from service.services import Services
+
+
+def _services(request: Request) -> Services:
+    services: Services = request.state.services
+    return services
+
+
+ServicesDep = Annotated[Services, Depends(_services)]
+
+Cursor = Annotated[str, Query(max_length=200, description="`next` of the page before; empty for the first.")]
+Limit = Annotated[int, Query(ge=1, le=200, description="Most items of the page.")]
+
+
+def refusals(*slugs: str) -> dict[int | str, dict[str, Any]]:
+    """The `responses` argument of a route that may answer with these problems."""
+    by_status: dict[int, list[str]] = {}
+    for slug in slugs:
+        by_status.setdefault(STATUS[slug], []).append(slug)
+    return {
+        status: {
+            "model": Problem,
+            "description": ", ".join(f"`{slug}`" for slug in found),
+            "content": {MEDIA_TYPE: {}},
+        }
+        for status, found in sorted(by_status.items())
+    }
+
+
+BODY = ("malformed-json", "body-too-large", "validation")
+"""What any route with a body may refuse."""
+GROUNDING = (
+    "query-syntax",
+    "arity-mismatch",
+    "unknown-object",
+    "unknown-proposition",
+    "type-mismatch",
+    "ambiguous-grounding",
+)
+"""What grounding a contextual query may refuse."""

@@ -1,0 +1,95 @@
+"""`/environments`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Response
+
+from models.errors import Place
+from models.world import EnvironmentSpec, WorldError, load_environment
+from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, refusals
+from service.http.schemas import EnvironmentList, EnvironmentOut, EnvironmentSummary
+from service.http.views import environment_data
+from service.store import StoredEnvironment
+
+router = APIRouter(prefix="/environments", tags=["environments"])
+
+
+@router.get("", operation_id="listEnvironments", responses=refusals("validation"))
+def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) -> EnvironmentList:
+    """List the stored environments in order of name."""
+    with services.store.read() as transaction:
+        found = transaction.environments.list(after=cursor, limit=limit + 1)
+    return EnvironmentList(
+        items=[EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in found[:limit]],
+        next=found[limit - 1].name if len(found) > limit else None,
+    )
+
+
+@router.post(
+    "",
+    operation_id="createEnvironment",
+    status_code=201,
+    responses=refusals(*BODY, "invalid-environment", "environment-exists"),
+)
+def post_environment(body: EnvironmentSpec, services: ServicesDep, response: Response) -> EnvironmentOut:
+    """Store a new environment."""
+    name, data = _checked(body)
+    with services.store.write() as transaction:
+        stored = transaction.environments.add(name, body.kind, data)
+    response.headers["Location"] = f"/environments/{name}"
+    return _out(stored)
+
+
+@router.get("/{name}", operation_id="getEnvironment", responses=refusals("unknown-environment"))
+def get_environment(name: str, services: ServicesDep) -> EnvironmentOut:
+    """A stored environment."""
+    with services.store.read() as transaction:
+        return _out(transaction.environments.get(name))
+
+
+@router.put(
+    "/{name}",
+    operation_id="putEnvironment",
+    responses={
+        201: {"model": EnvironmentOut, "description": "Created."},
+        **refusals(*BODY, "invalid-environment"),
+    },
+)
+def put_environment(name: str, body: EnvironmentSpec, services: ServicesDep, response: Response) -> EnvironmentOut:
+    """Store an environment, in place of the one of that name if there is one."""
+    given, data = _checked(body)
+    if given != name:
+        detail = f'the body names the environment "{given}", the address "{name[:100]}"'
+        raise WorldError(detail, places=[Place("/name", detail)])
+    with services.store.write() as transaction:
+        stored = transaction.environments.put(name, body.kind, data)
+    response.status_code = 201 if stored.revision == 1 else 200
+    return _out(stored)
+
+
+@router.delete(
+    "/{name}",
+    operation_id="deleteEnvironment",
+    status_code=204,
+    response_class=Response,
+    responses=refusals("unknown-environment"),
+)
+def delete_environment(name: str, services: ServicesDep) -> None:
+    """Forget an environment. Policies planned in it stay usable."""
+    with services.store.write() as transaction:
+        transaction.environments.delete(name)
+
+
+def _checked(body: EnvironmentSpec) -> tuple[str, dict[str, Any]]:
+    """The name and the data as stored; raises `WorldError` when they are not a world."""
+    data = environment_data(body)
+    load_environment(data)
+    return body.name, data
+
+
+def _out(stored: StoredEnvironment) -> EnvironmentOut:
+    return EnvironmentOut.model_validate(
+        {"name": stored.name, "kind": stored.kind, "revision": stored.revision, "spec": stored.data}
+    )

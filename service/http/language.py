@@ -1,0 +1,121 @@
+"""`/translate`, `/learn`, `/ground`."""
+
+from __future__ import annotations
+
+from anyio.to_thread import run_sync
+from fastapi import APIRouter, Response
+
+from models.logic import to_text as formula_text
+from models.world import explain
+from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
+from service.http.schemas import (
+    BatchRequest,
+    BatchResponse,
+    GroundRequest,
+    GroundResponse,
+    LearnRequest,
+    TemplateOut,
+    TranslateRequest,
+    TranslateResponse,
+)
+from service.http.views import bindings_out, query_out, template_out, translated_out
+from service.lessons import Lesson, learn_template
+from service.pipeline import ground, translate
+
+router = APIRouter(tags=["language"])
+
+
+@router.post(
+    "/translate", operation_id="translate", responses=refusals(*BODY, "unknown-environment", "text-too-long")
+)
+def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
+    """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
+    return translated_out(
+        translate(
+            services,
+            body.text,
+            environment=body.environment,
+            translator=body.translator,
+            candidates=body.candidates,
+        )
+    )
+
+
+@router.post(
+    "/translate/batch",
+    operation_id="translateBatch",
+    responses=refusals(*BODY, "unknown-environment", "text-too-long"),
+)
+def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
+    """Translate several commands."""
+    return BatchResponse(
+        items=[
+            translated_out(
+                translate(
+                    services,
+                    text,
+                    environment=body.environment,
+                    translator=body.translator,
+                    candidates=body.candidates,
+                )
+            )
+            for text in body.texts
+        ]
+    )
+
+
+@router.post(
+    "/learn",
+    operation_id="learn",
+    status_code=201,
+    responses={
+        200: {"model": TemplateOut, "description": "Known already; `revision` tells whether anything was added."},
+        **refusals(
+            *BODY,
+            "unknown-environment",
+            "template-conflict",
+            "formula-syntax",
+            "formula-too-large",
+            "query-syntax",
+            "unknown-proposition",
+            "unknown-object",
+            "type-mismatch",
+            "ambiguous-parameter-mapping",
+            "unused-parameter",
+            "inconsistent-examples",
+            "example-argument-not-found",
+            "out-of-time",
+            "overloaded",
+        ),
+    },
+)
+async def post_learn(body: LearnRequest, services: ServicesDep, response: Response) -> TemplateOut:
+    """Learn the template of a task class from one contextual query and its grounded LTL."""
+    lesson = Lesson(
+        query=body.contextual_query,
+        ltl=body.ltl,
+        environment=body.environment,
+        more=tuple((pair.contextual_query, pair.ltl) for pair in body.more),
+        examples=tuple(body.examples),
+        replace=body.replace,
+    )
+    stored, created = await learn_template(services, lesson)
+    response.status_code = 201 if created else 200
+    response.headers["Location"] = f"/templates/{stored.task}"
+    return template_out(stored)
+
+
+@router.post(
+    "/ground",
+    operation_id="ground",
+    responses=refusals(*BODY, "unknown-environment", "unknown-template", *GROUNDING),
+)
+async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
+    """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
+    environment, task = await run_sync(ground, services, body.contextual_query, body.environment)
+    return GroundResponse(
+        contextual_query=query_out(task.query),
+        ltl=formula_text(task.formula),
+        explanation=explain(task.formula, environment),
+        bindings=bindings_out(task),
+    )

@@ -1,0 +1,48 @@
+"""The OpenAPI document: what FastAPI makes, with error media types as they are sent."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from service.http.problems import MEDIA_TYPE
+
+_PROBLEM = {"$ref": "#/components/schemas/Problem"}
+
+
+def openapi(app: FastAPI) -> dict[str, Any]:
+    """The document of the app, made once."""
+    if app.openapi_schema is None:
+        document = get_openapi(
+            title=app.title,
+            version=app.version,
+            summary=app.summary,
+            description=app.description,
+            license_info=app.license_info,
+            routes=app.routes,
+            separate_input_output_schemas=app.separate_input_output_schemas,
+        )
+        _document_problems(document)
+        app.openapi_schema = document
+    return app.openapi_schema
+
+
+def _document_problems(document: dict[str, Any]) -> None:
+    """Every error is a problem: FastAPI writes `application/json`, and its own schema for 422."""
+    for path in document["paths"].values():
+        for operation in path.values():
+            responses = operation["responses"]
+            for status, response in responses.items():
+                if status >= "400":
+                    response["content"] = {MEDIA_TYPE: {"schema": _PROBLEM}}
+                    if response["description"] == "Validation Error":
+                        response["description"] = "`validation`"
+            responses["default"] = {
+                "description": "Any other problem.",
+                "content": {MEDIA_TYPE: {"schema": _PROBLEM}},
+            }
+            operation["responses"] = dict(sorted(responses.items()))
+    for name in ("HTTPValidationError", "ValidationError"):
+        document["components"]["schemas"].pop(name, None)

@@ -1,0 +1,99 @@
+"""`/plan`."""
+
+from __future__ import annotations
+
+import time
+
+from fastapi import APIRouter
+
+from models.logic import to_text as formula_text
+from models.world import explain
+from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
+from service.http.schemas import (
+    Bounds,
+    ModelSize,
+    PlanRequest,
+    PlanResponse,
+    PolicySummary,
+    Situation,
+    Timing,
+    TrajectoryStep,
+)
+from service.http.views import environment_data, query_out
+from service.pipeline import Planned, PlanOrder, plan
+
+router = APIRouter(tags=["planning"])
+
+
+@router.post(
+    "/plan",
+    operation_id="plan",
+    responses=refusals(
+        *BODY,
+        *GROUNDING,
+        "unknown-environment",
+        "unknown-template",
+        "invalid-environment",
+        "invalid-state",
+        "text-too-long",
+        "not-understood",
+        "ambiguous-command",
+        "formula-syntax",
+        "formula-too-large",
+        "formula-not-cosafe",
+        "model-too-large",
+        "device-unavailable",
+        "out-of-time",
+        "overloaded",
+    ),
+)
+async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
+    """Plan a command, a contextual query or an LTL formula in an environment."""
+    started = time.perf_counter()
+    settings, options = services.settings, body.options
+    spec = body.environment_spec
+    order = PlanOrder(
+        text=body.text,
+        query=body.contextual_query,
+        ltl=body.ltl,
+        environment=body.environment,
+        spec=None if spec is None else environment_data(spec),
+        state=body.state,
+        translator=body.translator,
+        epsilon=options.epsilon,
+        timeout_s=min(options.timeout_s, settings.plan_timeout_s),
+        max_states=min(options.max_states, settings.max_states),
+        device=options.device,
+    )
+    return _plan_out(await plan(services, order), time.perf_counter() - started)
+
+
+def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
+    answer = planned.answer
+    steps = [TrajectoryStep(state=state, memory=memory, action=action) for state, memory, action in answer.trajectory]
+    policy = None
+    if planned.policy_id is not None:
+        url = f"/policies/{planned.policy_id}"
+        policy = PolicySummary(
+            id=planned.policy_id, url=url, memories=answer.automaton_states, states=answer.states
+        )
+    return PlanResponse(
+        id=planned.policy_id,
+        outcome=answer.outcome,
+        contextual_query=None if planned.task is None else query_out(planned.task.query),
+        ltl=formula_text(planned.formula),
+        explanation=explain(planned.formula, planned.environment),
+        environment=planned.environment.name,
+        probability=Bounds(lower=answer.lower, upper=answer.upper),
+        expected_steps=answer.expected_steps,
+        initial=Situation(state=answer.initial, memory=answer.initial_memory),
+        trajectory=steps,
+        trajectory_complete=answer.complete,
+        policy=policy,
+        model=ModelSize(
+            states=answer.states,
+            product_states=answer.product_states,
+            automaton_states=answer.automaton_states,
+        ),
+        timing=Timing(total_s=round(seconds, 6)),
+    )

@@ -1,0 +1,70 @@
+"""`/policies`: what a robot asks while it acts."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Query, Response
+
+from models.planning import to_json
+from service.http.dependencies import BODY, ServicesDep, refusals
+from service.http.schemas import PolicyOut, StepRequest, StepResponse
+from service.places import at
+
+router = APIRouter(prefix="/policies", tags=["policies"])
+
+
+@router.get(
+    "/{policy_id}",
+    operation_id="getPolicy",
+    response_model=PolicyOut,
+    responses=refusals("unknown-policy"),
+)
+def get_policy(policy_id: str, services: ServicesDep) -> Response:
+    """The whole policy as flat arrays."""
+    stored, policy = services.policy(policy_id)
+    content = {"id": stored.id, "environment": stored.environment, **to_json(policy)}
+    # Straight to text: checking millions of numbers against the schema would cost more than all the rest.
+    text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return Response(text, media_type="application/json")
+
+
+@router.get(
+    "/{policy_id}/automaton",
+    operation_id="getPolicyAutomaton",
+    response_class=Response,
+    responses={
+        200: {"content": {"text/plain": {"schema": {"type": "string"}}}, "description": "The automaton."},
+        **refusals("unknown-policy", "validation"),
+    },
+)
+def get_policy_automaton(
+    policy_id: str,
+    services: ServicesDep,
+    format: Annotated[Literal["hoa"], Query(description="`hoa`: Hanoi omega-automata format.")] = "hoa",  # noqa: A002
+) -> Response:
+    """The automaton whose states are the policy's memory."""
+    _, policy = services.policy(policy_id)
+    return Response({"hoa": policy.hoa}[format], media_type="text/plain")
+
+
+@router.post(
+    "/{policy_id}/step",
+    operation_id="stepPolicy",
+    responses=refusals(*BODY, "unknown-policy", "invalid-state", "invalid-memory"),
+)
+def post_step(policy_id: str, body: StepRequest, services: ServicesDep) -> StepResponse:
+    """What to do now: send the state observed and the memory the last step returned, once per step."""
+    _, policy = services.policy(policy_id)
+    with at("/state", only={"invalid-state"}), at("/memory", only={"invalid-memory"}):
+        step = policy.step(body.state, body.memory)
+    return StepResponse(
+        action=step.action,
+        memory=step.memory,
+        probability=step.probability,
+        expected_steps=step.expected_steps if math.isfinite(step.expected_steps) else None,
+        done=step.done,
+        status=step.status,
+    )

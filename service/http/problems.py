@@ -1,0 +1,161 @@
+"""Errors as RFC 9457 problems. docs/http.md lists every slug; a test compares the two."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
+
+from models.errors import CqltlError
+
+MEDIA_TYPE = "application/problem+json"
+TYPE_PREFIX = "urn:cqltl:problem:"
+
+STATUS: dict[str, int] = {
+    # the request's form
+    "malformed-json": 400,
+    "validation": 422,
+    "body-too-large": 413,
+    "method-not-allowed": 405,
+    "http-error": 400,
+    "internal": 500,
+    # what it names
+    "not-found": 404,
+    "unknown-environment": 404,
+    "unknown-template": 404,
+    "unknown-policy": 404,
+    "environment-exists": 409,
+    "template-conflict": 409,
+    # formulas and queries
+    "formula-syntax": 422,
+    "formula-too-large": 422,
+    "formula-not-cosafe": 422,
+    "query-syntax": 422,
+    "arity-mismatch": 422,
+    "unknown-proposition": 422,
+    "unknown-object": 422,
+    "type-mismatch": 422,
+    "ambiguous-parameter-mapping": 422,
+    "ambiguous-grounding": 422,
+    "unused-parameter": 422,
+    "inconsistent-examples": 422,
+    "example-argument-not-found": 422,
+    # language
+    "text-too-long": 422,
+    "not-understood": 422,
+    "ambiguous-command": 422,
+    # worlds and plans
+    "invalid-environment": 422,
+    "invalid-state": 422,
+    "invalid-memory": 422,
+    "model-too-large": 422,
+    "device-unavailable": 422,
+    "out-of-time": 422,
+    # the service
+    "overloaded": 503,
+    "not-ready": 503,
+    "spot-missing": 503,
+}
+"""Status of every slug."""
+
+_log = logging.getLogger("cqltl")
+
+
+class ErrorPlace(BaseModel):
+    """One wrong place of the request."""
+
+    pointer: str = Field(description="JSON pointer into the request body; empty for the whole.")
+    detail: str = Field(description="What is wrong there.")
+
+
+class Problem(BaseModel):
+    """An RFC 9457 problem."""
+
+    type: str = Field(description="Stable URI of the kind of problem: `urn:cqltl:problem:` and its slug.")
+    title: str = Field(description="The kind of problem in words.")
+    status: int = Field(description="The HTTP status.")
+    detail: str = Field(description="What happened, in a sentence.")
+    errors: list[ErrorPlace] = Field(default_factory=list, description="The wrong places, where they can be named.")
+    line: int | None = Field(None, description="Line of a syntax error, from 1.")
+    column: int | None = Field(None, description="Column of a syntax error, from 1.")
+    caret: str | None = Field(None, description="The line of a syntax error with a caret under the column.")
+    choices: list[str] | None = Field(None, description="What an ambiguous phrase could mean.")
+
+
+def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
+    """The response for a problem; `members` are further members of `Problem`."""
+    status = members.pop("status", STATUS[slug])
+    problem = Problem(
+        type=TYPE_PREFIX + slug, title=slug.replace("-", " "), status=status, detail=detail, **members
+    )
+    headers = {"Retry-After": "1"} if status == 503 else None
+    content = problem.model_dump(exclude_none=True)
+    return JSONResponse(content, status_code=status, headers=headers, media_type=MEDIA_TYPE)
+
+
+def install(app: FastAPI) -> None:
+    """Answer every error with a problem."""
+    app.add_exception_handler(CqltlError, _refused)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _http_error)
+    app.add_exception_handler(Exception, _internal)
+
+
+def _refused(_request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, CqltlError)
+    members: dict[str, Any] = {
+        "errors": [ErrorPlace(pointer=place.pointer, detail=place.detail) for place in error.places]
+    }
+    members.update({name: getattr(error, name) for name in ("line", "column", "caret") if hasattr(error, name)})
+    if hasattr(error, "candidates"):
+        members["choices"] = [candidate.symbol.name for candidate in error.candidates]
+    return problem_response(error.slug, error.detail, **members)
+
+
+def _invalid(_request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    found = error.errors()
+    if any(item["type"] == "json_invalid" for item in found):
+        reason = found[0].get("ctx", {}).get("error", "it does not parse")
+        return problem_response("malformed-json", f"the body is not JSON: {reason}")
+    places = [ErrorPlace(pointer=_pointer(item["loc"], error.body), detail=item["msg"]) for item in found]
+    first = places[0]
+    return problem_response("validation", f"{first.pointer or 'the request'}: {first.detail}", errors=places)
+
+
+def _pointer(location: Sequence[str | int], body: Any) -> str:
+    """The JSON pointer of a validation error; the names of union members, which pydantic adds, are left out."""
+    if not location or location[0] != "body":
+        return "".join(f"/{part}" for part in location)
+    parts: list[str] = []
+    value = body
+    for number, part in enumerate(location[1:], start=2):
+        if isinstance(value, dict) and part not in value and number < len(location):
+            continue
+        parts.append(str(part).replace("~", "~0").replace("/", "~1"))
+        try:
+            value = value[part]
+        except (KeyError, IndexError, TypeError):
+            value = None
+    return "".join(f"/{part}" for part in parts)
+
+
+def _http_error(_request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    slug = {404: "not-found", 405: "method-not-allowed", 413: "body-too-large"}.get(error.status_code, "http-error")
+    detail = error.detail or HTTPStatus(error.status_code).phrase
+    response = problem_response(slug, str(detail), status=error.status_code)
+    response.headers.update(error.headers or {})
+    return response
+
+
+def _internal(request: Request, error: Exception) -> JSONResponse:
+    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    return problem_response("internal", "the service failed on this request; the failure is in its log")

@@ -1,0 +1,127 @@
+"""The use case of `/learn`: derive a template from one example, review it, keep it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from anyio.to_thread import run_sync
+
+from models.errors import CqltlError, Place
+from models.language import Wording
+from models.logic import parse
+from models.logic import to_text as formula_text
+from models.queries import Example, Template, learn, parse_query
+from service.errors import TemplateConflictError
+from service.places import at
+from service.services import LoadedEnvironment, Services
+from service.store import StoredExample, StoredPair, StoredTemplate
+from service.worker import ReviewJob, run_review
+
+MAX_EVIDENCE = 100
+"""Pairs, and utterances, kept with one template."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """What `/learn` is given: a contextual query and grounded LTL, further such pairs, and utterances."""
+
+    query: str
+    ltl: str
+    environment: str
+    more: tuple[tuple[str, str], ...] = ()
+    examples: tuple[str, ...] = ()
+    replace: bool = False
+
+
+def read_template(stored: StoredTemplate) -> Template:
+    """The template value of a stored one."""
+    kinds = tuple(frozenset(kinds) for kinds in stored.kinds)
+    return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds)
+
+
+async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemplate, bool]:
+    """Derive the template, review it, and store it; the flag says whether the task is new.
+
+    Learning the same again stores nothing new but pairs and utterances not seen before.
+
+    Raises:
+        TemplateConflictError: the task has another template and `lesson.replace` is not set.
+        CqltlError: whatever parsing and `models.queries.learn` raise; then nothing is stored.
+    """
+    environment, template = await run_sync(_derive, services, lesson)
+    job = ReviewJob(template, environment.text)
+    with at("/ltl"):
+        warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
+    return await run_sync(_keep, services, lesson, template, warnings)
+
+
+def _derive(services: Services, lesson: Lesson) -> tuple[LoadedEnvironment, Template]:
+    with at("/environment"):
+        environment = services.environment(lesson.environment)
+    examples = [_read_pair(lesson.query, lesson.ltl, "")]
+    examples += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
+    for index, utterance in enumerate(lesson.examples):
+        with at(f"/examples/{index}"):
+            Wording.of(utterance, examples[0].query)
+    try:
+        return environment, learn(examples, environment.value)
+    except CqltlError as error:
+        error.places = tuple(_in_request(place) for place in error.places) or (Place("/ltl", error.detail),)
+        error.placed = True
+        raise
+
+
+def _in_request(place: Place) -> Place:
+    """`learn` numbers its examples; the first is spelled out in the request, the others are the list `more`."""
+    number, _, rest = place.pointer.removeprefix("/").partition("/")
+    rest = rest.replace("query", "contextual_query", 1).replace("formula", "ltl", 1)
+    return Place(f"/{rest}" if number == "0" else f"/more/{int(number) - 1}/{rest}", place.detail)
+
+
+def _read_pair(query: str, ltl: str, pointer: str) -> Example:
+    with at(f"{pointer}/contextual_query"):
+        read = parse_query(query)
+    with at(f"{pointer}/ltl"):
+        return Example(read, parse(ltl))
+
+
+def _keep(
+    services: Services, lesson: Lesson, template: Template, warnings: tuple[str, ...]
+) -> tuple[StoredTemplate, bool]:
+    pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
+    pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
+    new = StoredTemplate(
+        task=template.task,
+        template=formula_text(template.formula),
+        lifted=formula_text(template.lifted),
+        kinds=tuple(tuple(sorted(kinds)) for kinds in template.kinds),
+        pairs=tuple(dict.fromkeys(pairs)),
+        examples=tuple(StoredExample(text, lesson.query) for text in dict.fromkeys(lesson.examples)),
+        warnings=warnings,
+        revision=1,
+    )
+    with services.store.write() as transaction:
+        known = transaction.templates.find(template.task)
+        if known is None:
+            kept = new
+        elif (known.template, known.arity) == (new.template, new.arity):
+            kept = _add_evidence(known, new)
+        elif lesson.replace:
+            kept = replace(new, revision=known.revision + 1)
+        else:
+            raise TemplateConflictError(
+                f'{template.task} is stored with the template {known.template}; "replace": true puts '
+                f"{new.template} in its place"
+            )
+        if kept != known:
+            transaction.templates.put(kept)
+    return kept, known is None
+
+
+def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
+    """The known template with what the new lesson adds to its pairs and utterances."""
+    pairs = tuple(dict.fromkeys(known.pairs + new.pairs))[:MAX_EVIDENCE]
+    examples = tuple(dict.fromkeys(known.examples + new.examples))[:MAX_EVIDENCE]
+    if (pairs, examples) == (known.pairs, known.examples):
+        return known
+    return replace(known, pairs=pairs, examples=examples, revision=known.revision + 1)

@@ -1,0 +1,203 @@
+"""The use cases: English in, policy out. Plain functions over the services that the composition root made."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from anyio.to_thread import run_sync
+
+from models.errors import CqltlError
+from models.logic import Formula, parse
+from models.logic import to_text as formula_text
+from models.queries import AmbiguousGroundingError, ContextualQuery, GroundedTask, evaluate, parse_query
+from models.world import Environment, State, resolve
+from service.errors import AmbiguousCommandError, NotUnderstoodError, UnknownTemplateError
+from service.lessons import read_template
+from service.places import at
+from service.services import LoadedEnvironment, Services
+from service.store import StoredPolicy
+from service.understanding import understand
+from service.worker import PlanAnswer, PlanJob, run_plan
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One way to read a command: its query, and the grounded task or the refusal that stands in its way."""
+
+    query: ContextualQuery
+    confidence: float
+    task: GroundedTask | None
+    refusal: CqltlError | None
+
+
+@dataclass(frozen=True, slots=True)
+class Translated:
+    """The readings of a command, best first; none when no task fits. `environment` is None when none was named."""
+
+    text: str
+    readings: tuple[Reading, ...]
+    environment: Environment | None
+
+    @property
+    def outcome(self) -> str:
+        """`translated`, `ambiguous` or `unknown`."""
+        if not self.readings:
+            return "unknown"
+        return "ambiguous" if isinstance(self.readings[0].refusal, AmbiguousGroundingError) else "translated"
+
+
+@dataclass(frozen=True, slots=True)
+class PlanOrder:
+    """What `/plan` is asked for: one of `text`, `query` and `ltl`; one of `environment` (a name) and `spec`."""
+
+    text: str | None
+    query: str | None
+    ltl: str | None
+    environment: str | None
+    spec: Mapping[str, Any] | None
+    state: State | None
+    translator: str
+    epsilon: float
+    timeout_s: float
+    max_states: int
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A plan: what was planned for, where, and what was found."""
+
+    task: GroundedTask | None
+    formula: Formula
+    environment: Environment
+    answer: PlanAnswer
+    policy_id: str | None
+
+
+def translate(
+    services: Services, text: str, *, environment: str | None, translator: str, candidates: int
+) -> Translated:
+    """Translate a command; with an environment, ground each reading and put it into its template."""
+    with at("/environment"):
+        world = None if environment is None else services.environment(environment).value
+    return translate_in(services, text, world, translator=translator, candidates=candidates)
+
+
+def translate_in(
+    services: Services, text: str, environment: Environment | None, *, translator: str, candidates: int
+) -> Translated:
+    """Translate a command for an environment that is at hand."""
+    with at("/text"):
+        found = understand(services, text, translator=translator, candidates=candidates)
+    readings = tuple(_read(services, text, t.query, t.confidence, environment) for t in found)
+    return Translated(text, readings, environment)
+
+
+def ground(services: Services, query: str, environment: str) -> tuple[Environment, GroundedTask]:
+    """Evaluate a contextual query against its stored template in a stored environment."""
+    with at("/environment"):
+        world = services.environment(environment).value
+    with at("/contextual_query"):
+        return world, ground_query(services, parse_query(query), world)
+
+
+def ground_query(
+    services: Services, query: ContextualQuery, environment: Environment, *, text: str | None = None
+) -> GroundedTask:
+    """Evaluate a query against its stored template; parts of speech of `text` are asked only when nothing else decides.
+
+    Raises:
+        UnknownTemplateError: and whatever `models.queries.evaluate` raises.
+    """
+    with services.store.read() as transaction:
+        template = read_template(transaction.templates.get(query.task))
+    try:
+        return evaluate(template, query, environment)
+    except AmbiguousGroundingError:
+        if text is None:
+            raise
+    from models.language import part_of_speech
+
+    tags = [part_of_speech(text, phrase) for phrase in query.arguments]
+    return evaluate(template, query, environment, parts_of_speech=tags)
+
+
+async def plan(services: Services, order: PlanOrder) -> Planned:
+    """Ground, compile, and run value iteration in a worker process; the policy is stored."""
+    environment, task, formula = await run_sync(_prepare, services, order)
+    job = PlanJob(environment.text, formula, order.state, order.epsilon, order.max_states, order.device)
+    with at("/state", only={"invalid-state"}), at(_source(order), only={"formula-not-cosafe", "formula-too-large"}):
+        answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
+    policy_id = await run_sync(_keep_policy, services, environment.value.name, formula, answer)
+    return Planned(task, formula, environment.value, answer, policy_id)
+
+
+def _read(
+    services: Services, text: str, query: ContextualQuery, confidence: float, environment: Environment | None
+) -> Reading:
+    if environment is None:
+        return Reading(query, confidence, None, None)
+    try:
+        return Reading(query, confidence, ground_query(services, query, environment, text=text), None)
+    except CqltlError as error:
+        return Reading(query, confidence, None, error)
+
+
+def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, GroundedTask | None, Formula]:
+    """The environment, the grounded task when it came from words, and the resolved formula."""
+    if order.spec is None:
+        assert order.environment is not None
+        with at("/environment"):
+            environment = services.environment(order.environment)
+    else:
+        with at("/environment_spec"):
+            environment = LoadedEnvironment.read(order.spec)
+    if order.ltl is not None:
+        with at("/ltl"):
+            return environment, None, resolve(parse(order.ltl), environment.value)
+    with at(_source(order)):
+        if order.text is not None:
+            task = _task_of(services, order.text, environment.value, order.translator)
+        else:
+            assert order.query is not None
+            task = ground_query(services, parse_query(order.query), environment.value)
+    return environment, task, task.formula
+
+
+def _task_of(services: Services, text: str, environment: Environment, translator: str) -> GroundedTask:
+    """The grounded task of a command to be planned; a robot must not act on a guess, so doubt is refused."""
+    translated = translate_in(services, text, environment, translator=translator, candidates=1)
+    if not translated.readings:
+        raise NotUnderstoodError(f'no stored task fits "{text[:100]}"')
+    reading = translated.readings[0]
+    if reading.task is not None:
+        return reading.task
+    assert reading.refusal is not None
+    if isinstance(reading.refusal, AmbiguousGroundingError):
+        raise AmbiguousCommandError(reading.refusal.detail)
+    if isinstance(reading.refusal, UnknownTemplateError):
+        raise NotUnderstoodError(reading.refusal.detail)
+    reading.refusal.places = ()  # they are in a contextual query that the caller did not write
+    raise reading.refusal
+
+
+def _source(order: PlanOrder) -> str:
+    """The pointer of the member that says what to do."""
+    if order.text is not None:
+        return "/text"
+    return "/contextual_query" if order.query is not None else "/ltl"
+
+
+def _keep_policy(services: Services, environment: str, formula: Formula, answer: PlanAnswer) -> str | None:
+    """Store the policy under a digest of what it holds, so that the same plan has the same id."""
+    if answer.policy is None:
+        return None
+    ltl = formula_text(formula)
+    digest = hashlib.sha256(json.dumps([environment, ltl]).encode() + b"\0" + answer.policy).hexdigest()[:32]
+    with services.store.write() as transaction:
+        transaction.policies.add(StoredPolicy(digest, environment, ltl, answer.policy))
+    return digest

@@ -1,0 +1,72 @@
+"""What the use cases work with; made once, by the composition root."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, Self
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from models.language import Translator
+from models.planning import Policy
+from models.world import Environment, load_environment
+from service.errors import NotReadyError
+from service.settings import Settings
+from service.store import Store, StoredPolicy
+from service.worker import Workers
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedEnvironment:
+    """An environment, and its data as JSON text, which is what a worker process is sent."""
+
+    text: str
+    value: Environment
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any]) -> Self:
+        """Check the data of an environment; raises `WorldError`."""
+        return cls(json.dumps(data), load_environment(data))
+
+
+class Services:
+    """The store, the worker processes and the translators, with small caches of what was read from the store."""
+
+    def __init__(
+        self, *, settings: Settings, store: Store, workers: Workers, translators: Mapping[str, Translator]
+    ) -> None:
+        self.settings = settings
+        self.store = store
+        self.workers = workers
+        self.translators = translators
+        self._policy = lru_cache(maxsize=16)(self._read_policy)
+        self._parsed = lru_cache(maxsize=64)(_parse_environment)
+
+    def environment(self, name: str) -> LoadedEnvironment:
+        """The stored environment of that name; raises `UnknownEnvironmentError`."""
+        with self.store.read() as transaction:
+            stored = transaction.environments.get(name)
+        return self._parsed(json.dumps(stored.data))
+
+    def policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
+        """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""
+        return self._policy(policy_id)
+
+    def check(self) -> None:
+        """Raise `NotReadyError` when the store does not answer."""
+        try:
+            self.store.ping()
+        except SQLAlchemyError as error:
+            raise NotReadyError(f"the store does not answer ({type(error).__name__})") from error
+
+    def _read_policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
+        with self.store.read() as transaction:
+            stored = transaction.policies.get(policy_id)
+        return stored, Policy.from_bytes(stored.data)
+
+
+def _parse_environment(text: str) -> LoadedEnvironment:
+    return LoadedEnvironment(text, load_environment(json.loads(text)))

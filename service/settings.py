@@ -1,0 +1,31 @@
+"""Settings from the environment, prefix `CQLTL_`. docs/settings.md lists each one; a test compares the two."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+
+class Settings(BaseSettings):
+    """Everything a deployment can set."""
+
+    model_config = SettingsConfigDict(env_prefix="CQLTL_", frozen=True, extra="ignore")
+
+    data_dir: Path = Field(Path("data"), description="Folder of the default SQLite file; made when missing.")
+    database_url: str = Field("", description="SQLAlchemy URL of the store; empty is cqltl.sqlite3 in data_dir.")
+    host: str = Field("127.0.0.1", description="Address that `cqltl serve` binds.")
+    port: int = Field(8000, ge=0, le=65535, description="Port that `cqltl serve` binds.")
+    workers: int = Field(2, ge=1, le=256, description="Processes that plan; one plan at a time each.")
+    max_waiting: int = Field(32, ge=0, description="Requests that may wait for a process before 503.")
+    max_body_bytes: int = Field(1_048_576, ge=1, description="Largest request body, in bytes.")
+    plan_timeout_s: float = Field(30.0, gt=0, description="Longest planning time a request may ask for, in seconds.")
+    logic_timeout_s: float = Field(5.0, gt=0, description="Longest time for the checks of one formula, in seconds.")
+    max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
+
+    @cached_property
+    def url(self) -> str:
+        """The store's SQLAlchemy URL, with the default filled in."""
+        return self.database_url or f"sqlite:///{self.data_dir.absolute() / 'cqltl.sqlite3'}"

@@ -1,0 +1,18 @@
+"""The store: templates, environments and policies in a SQL database."""
+
+from service.store.environments import EnvironmentRepository, StoredEnvironment
+from service.store.policies import PolicyRepository, StoredPolicy
+from service.store.store import Store
+from service.store.templates import StoredExample, StoredPair, StoredTemplate, TemplateRepository
+
+__all__ = [
+    "EnvironmentRepository",
+    "PolicyRepository",
+    "Store",
+    "StoredEnvironment",
+    "StoredExample",
+    "StoredPair",
+    "StoredPolicy",
+    "StoredTemplate",
+    "TemplateRepository",
+]

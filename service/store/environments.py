@@ -1,0 +1,67 @@
+"""Environments, as the data they were given as."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Connection, delete, insert, select, update
+
+from service.errors import EnvironmentExistsError, UnknownEnvironmentError
+from service.store.tables import environments
+
+
+@dataclass(frozen=True, slots=True)
+class StoredEnvironment:
+    """The data of one environment; `revision` counts from 1 and grows with each replacement."""
+
+    name: str
+    kind: str
+    data: Mapping[str, Any]
+    revision: int
+
+
+class EnvironmentRepository:
+    """Environments by name, within one transaction."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def get(self, name: str) -> StoredEnvironment:
+        """The environment; raises `UnknownEnvironmentError`."""
+        row = self._connection.execute(select(environments).where(environments.c.name == name)).first()
+        if row is None:
+            raise UnknownEnvironmentError(f'no environment is called "{name[:100]}"')
+        return StoredEnvironment(row.name, row.kind, row.data, row.revision)
+
+    def list(self, *, after: str = "", limit: int) -> list[StoredEnvironment]:
+        """Up to `limit` environments in order of name, from the first whose name is greater than `after`."""
+        rows = self._connection.execute(
+            select(environments).where(environments.c.name > after).order_by(environments.c.name).limit(limit)
+        )
+        return [StoredEnvironment(row.name, row.kind, row.data, row.revision) for row in rows]
+
+    def add(self, name: str, kind: str, data: Mapping[str, Any]) -> StoredEnvironment:
+        """Store a new environment; raises `EnvironmentExistsError`."""
+        if self._connection.scalar(select(environments.c.name).where(environments.c.name == name)) is not None:
+            raise EnvironmentExistsError(f'an environment called "{name}" is stored already; PUT replaces it')
+        self._connection.execute(insert(environments).values(name=name, kind=kind, data=dict(data), revision=1))
+        return StoredEnvironment(name, kind, data, 1)
+
+    def put(self, name: str, kind: str, data: Mapping[str, Any]) -> StoredEnvironment:
+        """Store an environment, in place of the one of that name if there is one."""
+        revision = self._connection.scalar(select(environments.c.revision).where(environments.c.name == name))
+        if revision is None:
+            return self.add(name, kind, data)
+        self._connection.execute(
+            update(environments)
+            .where(environments.c.name == name)
+            .values(kind=kind, data=dict(data), revision=revision + 1)
+        )
+        return StoredEnvironment(name, kind, data, revision + 1)
+
+    def delete(self, name: str) -> None:
+        """Remove the environment; raises `UnknownEnvironmentError`."""
+        self.get(name)
+        self._connection.execute(delete(environments).where(environments.c.name == name))

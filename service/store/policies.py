@@ -1,0 +1,43 @@
+"""Policies, as the bytes that `models.planning` writes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sqlalchemy import Connection, insert, select
+
+from service.errors import UnknownPolicyError
+from service.store.tables import policies
+
+
+@dataclass(frozen=True, slots=True)
+class StoredPolicy:
+    """One policy; its id is a digest of what it holds, so the same plan is stored once."""
+
+    id: str
+    environment: str
+    ltl: str
+    data: bytes
+
+
+class PolicyRepository:
+    """Policies by id, within one transaction."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def get(self, policy_id: str) -> StoredPolicy:
+        """The policy; raises `UnknownPolicyError`."""
+        row = self._connection.execute(select(policies).where(policies.c.id == policy_id)).first()
+        if row is None:
+            raise UnknownPolicyError(f'no policy has the id "{policy_id[:100]}"')
+        return StoredPolicy(row.id, row.environment, row.ltl, row.data)
+
+    def add(self, policy: StoredPolicy) -> None:
+        """Store the policy if it is not stored yet."""
+        if self._connection.scalar(select(policies.c.id).where(policies.c.id == policy.id)) is None:
+            self._connection.execute(
+                insert(policies).values(
+                    id=policy.id, environment=policy.environment, ltl=policy.ltl, data=policy.data
+                )
+            )

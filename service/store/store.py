@@ -1,0 +1,75 @@
+"""Transactions over the repositories."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from sqlalchemy import Connection, Engine, insert, select, text
+
+from service.store.engine import WRITE, open_engine
+from service.store.environments import EnvironmentRepository
+from service.store.policies import PolicyRepository
+from service.store.tables import facts
+from service.store.templates import TemplateRepository
+
+
+@dataclass(frozen=True, slots=True)
+class Transaction:
+    """The repositories within one transaction."""
+
+    connection: Connection
+
+    @property
+    def environments(self) -> EnvironmentRepository:
+        """Environments by name."""
+        return EnvironmentRepository(self.connection)
+
+    @property
+    def templates(self) -> TemplateRepository:
+        """Templates by task."""
+        return TemplateRepository(self.connection)
+
+    @property
+    def policies(self) -> PolicyRepository:
+        """Policies by id."""
+        return PolicyRepository(self.connection)
+
+    def fact(self, name: str) -> str | None:
+        """A single fact about the store, or None."""
+        return self.connection.scalar(select(facts.c.value).where(facts.c.name == name))
+
+    def add_fact(self, name: str, value: str) -> None:
+        """Note a fact that was not there."""
+        self.connection.execute(insert(facts).values(name=name, value=value))
+
+
+class Store:
+    """Opens transactions on one database."""
+
+    def __init__(self, url: str) -> None:
+        self._engine: Engine = open_engine(url)
+
+    @contextmanager
+    def read(self) -> Iterator[Transaction]:
+        """A transaction that only reads."""
+        with self._engine.connect() as connection:
+            yield Transaction(connection)
+
+    @contextmanager
+    def write(self) -> Iterator[Transaction]:
+        """A transaction that holds the write lock from its start and commits at its end."""
+        with self._engine.connect() as connection:
+            connection.execution_options(**{WRITE: True})
+            with connection.begin():
+                yield Transaction(connection)
+
+    def ping(self) -> None:
+        """Raise when the database does not answer or lacks its tables."""
+        with self.read() as transaction:
+            transaction.connection.execute(text("SELECT count(*) FROM facts"))
+
+    def close(self) -> None:
+        """Close every connection."""
+        self._engine.dispose()

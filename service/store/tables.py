@@ -1,0 +1,48 @@
+"""The tables. Migrations in `migrations/` create them; a test compares the two."""
+
+from __future__ import annotations
+
+from sqlalchemy import JSON, Column, Integer, LargeBinary, MetaData, String, Table, Text
+
+metadata = MetaData(
+    naming_convention={"pk": "pk_%(table_name)s", "ix": "ix_%(table_name)s_%(column_0_name)s"},
+)
+
+environments = Table(
+    "environments",
+    metadata,
+    Column("name", String(200), primary_key=True),
+    Column("kind", String(20), nullable=False),
+    Column("data", JSON, nullable=False),
+    Column("revision", Integer, nullable=False),
+)
+
+templates = Table(
+    "templates",
+    metadata,
+    Column("task", String(200), primary_key=True),
+    Column("template", Text, nullable=False),
+    Column("lifted", Text, nullable=False),
+    Column("kinds", JSON, nullable=False),  # one sorted list of kinds per argument
+    Column("pairs", JSON, nullable=False),  # what it was learned from
+    Column("examples", JSON, nullable=False),  # utterances of the task with their queries
+    Column("warnings", JSON, nullable=False),
+    Column("revision", Integer, nullable=False),
+)
+
+policies = Table(
+    "policies",
+    metadata,
+    Column("id", String(64), primary_key=True),
+    Column("environment", String(200), nullable=False),
+    Column("ltl", Text, nullable=False),
+    Column("data", LargeBinary, nullable=False),  # models.planning.Policy.to_bytes
+)
+
+facts = Table(
+    "facts",
+    metadata,
+    Column("name", String(100), primary_key=True),
+    Column("value", Text, nullable=False),
+)
+"""Single facts about the store, such as which built-in data it was seeded with."""

@@ -1,0 +1,104 @@
+"""Learned templates."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from sqlalchemy import Connection, Row, delete, insert, select, update
+
+from service.errors import UnknownTemplateError
+from service.store.tables import templates
+
+
+@dataclass(frozen=True, slots=True)
+class StoredPair:
+    """A contextual query and the grounded LTL it was learned with, as texts, and the environment's name."""
+
+    contextual_query: str
+    ltl: str
+    environment: str
+
+
+@dataclass(frozen=True, slots=True)
+class StoredExample:
+    """An utterance and the contextual query it says, as text."""
+
+    text: str
+    contextual_query: str
+
+
+@dataclass(frozen=True, slots=True)
+class StoredTemplate:
+    """The template of one task. `kinds` holds a sorted tuple of kinds per argument."""
+
+    task: str
+    template: str
+    lifted: str
+    kinds: tuple[tuple[str, ...], ...]
+    pairs: tuple[StoredPair, ...]
+    examples: tuple[StoredExample, ...]
+    warnings: tuple[str, ...]
+    revision: int
+
+    @property
+    def arity(self) -> int:
+        """Number of arguments of the task."""
+        return len(self.kinds)
+
+
+class TemplateRepository:
+    """Templates by task, within one transaction."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def find(self, task: str) -> StoredTemplate | None:
+        """The template of the task, or None."""
+        row = self._connection.execute(select(templates).where(templates.c.task == task)).first()
+        return None if row is None else _read(row)
+
+    def get(self, task: str) -> StoredTemplate:
+        """The template of the task; raises `UnknownTemplateError`."""
+        found = self.find(task)
+        if found is None:
+            raise UnknownTemplateError(f'no template is stored for a task "{task[:100]}"; POST /learn teaches one')
+        return found
+
+    def list(self, *, after: str = "", limit: int) -> list[StoredTemplate]:
+        """Up to `limit` templates in order of task, from the first whose task is greater than `after`."""
+        rows = self._connection.execute(
+            select(templates).where(templates.c.task > after).order_by(templates.c.task).limit(limit)
+        )
+        return [_read(row) for row in rows]
+
+    def examples(self) -> list[StoredExample]:
+        """Every taught utterance, in order of task."""
+        rows = self._connection.scalars(select(templates.c.examples).order_by(templates.c.task))
+        return [StoredExample(**example) for row in rows for example in row]
+
+    def put(self, template: StoredTemplate) -> None:
+        """Store the template, in place of the task's present one if there is one."""
+        values = asdict(template)
+        if self.find(template.task) is None:
+            self._connection.execute(insert(templates).values(values))
+        else:
+            self._connection.execute(update(templates).where(templates.c.task == template.task).values(values))
+
+    def delete(self, task: str) -> None:
+        """Remove the template; raises `UnknownTemplateError`."""
+        self.get(task)
+        self._connection.execute(delete(templates).where(templates.c.task == task))
+
+
+def _read(row: Row[Any]) -> StoredTemplate:
+    return StoredTemplate(
+        task=row.task,
+        template=row.template,
+        lifted=row.lifted,
+        kinds=tuple(tuple(kinds) for kinds in row.kinds),
+        pairs=tuple(StoredPair(**pair) for pair in row.pairs),
+        examples=tuple(StoredExample(**example) for example in row.examples),
+        warnings=tuple(row.warnings),
+        revision=row.revision,
+    )

@@ -1,0 +1,74 @@
+"""Pools of processes with a deadline per task: one pool plans, one checks formulas."""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+from collections.abc import Callable
+from typing import TypeVar
+
+from pebble import ProcessExpired, ProcessFuture, ProcessPool
+
+from service.errors import OutOfTimeError, OverloadedError
+from service.worker.jobs import warm_logic, warm_planning
+
+T = TypeVar("T")
+A = TypeVar("A")
+
+
+class Workers:
+    """Runs jobs in child processes, and kills the process of a job whose time is spent.
+
+    Formula checks have a pool of their own, so that `/learn` never waits behind a long plan.
+    """
+
+    def __init__(self, *, planners: int, max_waiting: int) -> None:
+        self._context = multiprocessing.get_context("forkserver")
+        self._planners, self._max_waiting = planners, max_waiting
+        self._plan_pool: ProcessPool | None = None
+        self._logic_pool: ProcessPool | None = None
+        self._pending = 0
+
+    def start(self) -> None:
+        """Start the processes; each loads its libraries before its first job."""
+        self._plan_pool = ProcessPool(self._planners, initializer=warm_planning, context=self._context)
+        self._logic_pool = ProcessPool(1, initializer=warm_logic, context=self._context)
+        for _ in range(self._planners):
+            self._plan_pool.schedule(warm_planning)
+        self._logic_pool.schedule(warm_logic)
+
+    def stop(self) -> None:
+        """Kill the processes and whatever they do."""
+        for pool in (self._plan_pool, self._logic_pool):
+            if pool is not None:
+                pool.stop()
+                pool.join()
+
+    async def plan(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:
+        """Run `function(job)` in a planning process.
+
+        Raises:
+            OutOfTimeError: it took longer than `timeout_s` seconds, from its start.
+            OverloadedError: too many jobs wait already.
+        """
+        return await self._run(self._plan_pool, function, job, timeout_s)
+
+    async def check(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:
+        """Run `function(job)` in the process for formula checks; raises like `plan`."""
+        return await self._run(self._logic_pool, function, job, timeout_s)
+
+    async def _run(self, pool: ProcessPool | None, function: Callable[[A], T], job: A, timeout_s: float) -> T:
+        if pool is None:
+            raise RuntimeError("the workers are not started")
+        if self._pending >= self._planners + self._max_waiting:
+            raise OverloadedError(f"{self._pending} requests wait for a worker; try again later")
+        self._pending += 1
+        try:
+            future: ProcessFuture[T] = pool.schedule(function, args=[job], timeout=timeout_s)
+            return await asyncio.wrap_future(future)
+        except TimeoutError:
+            raise OutOfTimeError(f"stopped after {timeout_s:g} s without an answer") from None
+        except ProcessExpired as error:
+            raise OverloadedError(f"the worker process died ({error}); it may have run out of memory") from None
+        finally:
+            self._pending -= 1

@@ -1,0 +1,84 @@
+"""Worlds for tests: explicit arrays behind the World protocol, written without the code under test."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.logic import Atom
+from models.world import Outcomes, State, Variable
+
+Transitions = Mapping[int, Mapping[str, Mapping[int, float]]]
+"""state -> action -> successor -> probability."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArrayWorld:
+    """A world of `size` states, one variable, nullary labels."""
+
+    size: int
+    transitions: Transitions
+    holds: Mapping[str, frozenset[int]]
+    initial: int = 0
+    forbidden: frozenset[int] = frozenset()
+    name: str = "arrays"
+    actions: tuple[str, ...] = field(init=False)
+    variables: tuple[Variable, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        names = dict.fromkeys(name for choices in self.transitions.values() for name in choices)
+        object.__setattr__(self, "actions", tuple(names))
+        values = tuple(str(state) for state in range(self.size))
+        object.__setattr__(self, "variables", (Variable("world", "state", values),))
+
+    def _states(self, states: NDArray[np.int64] | None) -> list[int]:
+        return list(range(self.size)) if states is None else states.tolist()
+
+    def valid(self, states: NDArray[np.int64] | None = None) -> NDArray[np.bool_]:
+        return np.array([s not in self.forbidden for s in self._states(states)], dtype=np.bool_)
+
+    def encode(self, state: State, *, base: int | None = None) -> int:
+        return int(state["world"]["state"]) if state else self.initial if base is None else base
+
+    def decode(self, index: int) -> dict[str, dict[str, str]]:
+        return {"world": {"state": str(index)}}
+
+    def labels(self, atoms: Sequence[Atom], states: NDArray[np.int64] | None = None) -> NDArray[np.bool_]:
+        wanted = self._states(states)
+        rows = [[s in self.holds[atom.function] for s in wanted] for atom in atoms]
+        return np.array(rows, dtype=np.bool_).reshape(len(atoms), len(wanted))
+
+    def outcomes(self, action: int, states: NDArray[np.int64] | None = None) -> Outcomes:
+        wanted = self._states(states)
+        name = self.actions[action]
+        rows = [self.transitions.get(s, {}).get(name, {}) for s in wanted]
+        width = max([len(row) for row in rows], default=0) or 1
+        probability = np.zeros((width, len(wanted)))
+        successor = np.tile(np.array(wanted, dtype=np.int64), (width, 1))
+        for column, row in enumerate(rows):
+            for k, (target, chance) in enumerate(row.items()):
+                probability[k, column], successor[k, column] = chance, target
+        return Outcomes(np.array([bool(row) for row in rows], dtype=np.bool_), probability, successor)
+
+
+def random_world(seed: int, *, states: int | None = None, atoms: str = "ab") -> ArrayWorld:
+    """A random MDP with self-loops, traps, end components, unreachable parts and states without actions."""
+    pick = random.Random(seed)
+    size = states or pick.randint(1, 20)
+    transitions: dict[int, dict[str, dict[int, float]]] = {}
+    for state in range(size):
+        actions = pick.sample(["p", "q", "r", "s"], pick.choice([0, 1, 1, 2, 2, 3, 4]))
+        transitions[state] = {}
+        for action in sorted(actions):
+            targets = pick.sample(range(size), min(size, pick.choice([1, 1, 2, 3])))
+            if pick.random() < 0.3:
+                targets[0] = state
+            weights = [pick.choice([1, 1, 2, 5, 0.25]) for _ in set(targets)]
+            total = sum(weights)
+            transitions[state][action] = {t: w / total for t, w in zip(dict.fromkeys(targets), weights, strict=True)}
+    holds = {name: frozenset(s for s in range(size) if pick.random() < 0.25) for name in atoms}
+    return ArrayWorld(size, transitions, holds, initial=pick.randrange(size))
