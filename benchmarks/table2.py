@@ -25,7 +25,10 @@ from models.world import toys_spec
 
 SHAPES = ("cylinder", "sphere", "cube", "cone")
 SENTENCES = {
-    "ship": ("Put the cylinder in the box, then put the box in the bedroom", ("cylinder", "sphere", "cube", "cone")),
+    "ship": (
+        "Put the cylinder in the box, then put the box in the bedroom",
+        ("cylinder", "sphere", "cube", "cone"),
+    ),
     "pickup": ("Pickup the sphere", ("sphere", "cylinder", "cube", "cone")),
 }
 PAPER_S = {"ship": 363.72, "pickup": 101.185}
@@ -83,10 +86,9 @@ def main() -> None:
     print("| task | toys | states | steps | new world | stored world | paper |")
     print("|---|---|---|---|---|---|---|")
     for r in rows:
-        print(
-            f"| {r['task']} | {r['toys']} | {r['states']:,} | {r['expected_steps']:g} | {r['new_world_s'] * 1000:.1f} ms "
-            f"| {r['stored_world_s'] * 1000:.1f} ms | {r['paper_s']:.1f} s |"
-        )
+        new, stored = (f"{r[name] * 1000:.1f} ms" for name in ("new_world_s", "stored_world_s"))
+        size = f"{r['toys']} | {r['states']:,} | {r['expected_steps']:g}"
+        print(f"| {r['task']} | {size} | {new} | {stored} | {r['paper_s']:.1f} s |")
     if options.json:
         options.json.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
 

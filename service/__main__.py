@@ -70,7 +70,11 @@ def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 def _serve(settings: Settings, options: argparse.Namespace) -> int:
     from service.server import serve
 
-    serve(settings, host=options.host or settings.host, port=settings.port if options.port is None else options.port)
+    serve(
+        settings,
+        host=options.host or settings.host,
+        port=settings.port if options.port is None else options.port,
+    )
     return 0
 
 

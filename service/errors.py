@@ -16,7 +16,10 @@ CqltlError
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from models.errors import CqltlError
+from models.world import Candidate
 
 
 class NotFoundError(CqltlError):
@@ -62,9 +65,13 @@ class NotUnderstoodError(CqltlError):
 
 
 class AmbiguousCommandError(CqltlError):
-    """The command to plan could mean several things."""
+    """The command to plan could mean any of the `candidates`."""
 
     slug = "ambiguous-command"
+
+    def __init__(self, detail: str, *, candidates: Sequence[Candidate]) -> None:
+        super().__init__(detail)
+        self.candidates = tuple(candidates)
 
 
 class OutOfTimeError(CqltlError):

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from anyio.to_thread import run_sync
 
@@ -21,7 +21,7 @@ from service.places import at
 from service.services import LoadedEnvironment, Services
 from service.store import StoredPolicy
 from service.understanding import understand
-from service.worker import PlanAnswer, PlanJob, run_plan
+from service.worker import Device, PlanAnswer, PlanJob, run_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +43,8 @@ class Translated:
     environment: Environment | None
 
     @property
-    def outcome(self) -> str:
-        """`translated`, `ambiguous` or `unknown`."""
+    def outcome(self) -> Literal["translated", "ambiguous", "unknown"]:
+        """Whether the command is understood, could mean several objects, or fits no task."""
         if not self.readings:
             return "unknown"
         return "ambiguous" if isinstance(self.readings[0].refusal, AmbiguousGroundingError) else "translated"
@@ -64,7 +64,7 @@ class PlanOrder:
     epsilon: float
     timeout_s: float
     max_states: int
-    device: str
+    device: Device
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,10 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
     """Ground, compile, and run value iteration in a worker process; the policy is stored."""
     environment, task, formula = await run_sync(_prepare, services, order)
     job = PlanJob(environment.text, formula, order.state, order.epsilon, order.max_states, order.device)
-    with at("/state", only={"invalid-state"}), at(_source(order), only={"formula-not-cosafe", "formula-too-large"}):
+    with (
+        at("/state", only={"invalid-state"}),
+        at(_source(order), only={"formula-not-cosafe", "formula-too-large"}),
+    ):
         answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
     policy_id = await run_sync(_keep_policy, services, environment.value.name, formula, answer)
     return Planned(task, formula, environment.value, answer, policy_id)
@@ -178,7 +181,7 @@ def _task_of(services: Services, text: str, environment: Environment, translator
         return reading.task
     assert reading.refusal is not None
     if isinstance(reading.refusal, AmbiguousGroundingError):
-        raise AmbiguousCommandError(reading.refusal.detail)
+        raise AmbiguousCommandError(reading.refusal.detail, candidates=reading.refusal.candidates)
     if isinstance(reading.refusal, UnknownTemplateError):
         raise NotUnderstoodError(reading.refusal.detail)
     reading.refusal.places = ()  # they are in a contextual query that the caller did not write

@@ -24,9 +24,7 @@ async def seed(services: Services) -> None:
         for name, data in builtin_environments():
             transaction.environments.put(name, data["kind"], data)
     for pair in _read()["templates"]:
-        await learn_template(
-            services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"], replace=True)
-        )
+        await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"], replace=True))
     with services.store.write() as transaction:
         if transaction.fact(FACT) is None:
             transaction.add_fact(FACT, "1")

@@ -11,7 +11,7 @@ from typing import Any, Self
 from sqlalchemy.exc import SQLAlchemyError
 
 from models.language import Translator
-from models.planning import Policy
+from models.planning import Policy, from_bytes
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.settings import Settings
@@ -65,7 +65,7 @@ class Services:
     def _read_policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
         with self.store.read() as transaction:
             stored = transaction.policies.get(policy_id)
-        return stored, Policy.from_bytes(stored.data)
+        return stored, from_bytes(stored.data)
 
 
 def _parse_environment(text: str) -> LoadedEnvironment:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from models.language.tokens import find, words
 from models.language.vocabulary import END, NO_TASK
-from models.queries import ContextualQuery
+from models.queries import ContextualQuery, QuerySyntaxError
 
 OPEN, COMMA, CLOSE = "(", ",", ")"
 _MARKS = frozenset({OPEN, COMMA, CLOSE, NO_TASK, END})
@@ -40,7 +40,10 @@ def read(spelled: Sequence[str], arities: Mapping[str, int]) -> ContextualQuery 
             arguments[-1].append(word)
     if len(arguments) != arities[spelled[0]] or not all(arguments):
         return None
-    return ContextualQuery(spelled[0], tuple(" ".join(argument) for argument in arguments))
+    try:
+        return ContextualQuery(spelled[0], tuple(" ".join(argument) for argument in arguments))
+    except QuerySyntaxError:  # longer than a query may be: one word can be as long as a text
+        return None
 
 
 def is_spoken(query: ContextualQuery, text: Sequence[str]) -> bool:

@@ -69,8 +69,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -> tuple[Model, list[dict[str, float]]]:
     """Fit a network to T of the domains; returns the model of the epoch with the least validation loss, and the curve.
 
-    Nothing here looks at U. The validation loss is the mean of two: the commands as they are, and with every argument
-    hidden, which stands for words never seen.
+    Nothing here looks at U. The validation loss is the mean of three: the commands as they are; the same with every
+    argument hidden, which stands for words never seen; texts that no task fits.
     """
     if settings.epochs < 1:
         raise TrainingError("a run has at least one epoch")
@@ -106,9 +106,9 @@ def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -
         schedule.step()
         known, known_right = accuracy.greedy(network, vocabulary, validation)
         hidden, hidden_right = accuracy.greedy(network, vocabulary, validation, hide=True)
-        _, refused_right = accuracy.greedy(network, vocabulary, held_out)
-        if (known + hidden) / 2 < best_loss:
-            best_loss, best_weights = (known + hidden) / 2, copy.deepcopy(network.state_dict())
+        refused_loss, refused_right = accuracy.greedy(network, vocabulary, held_out)
+        if (epoch_loss := (known + hidden + refused_loss) / 3) < best_loss:
+            best_loss, best_weights = epoch_loss, copy.deepcopy(network.state_dict())
         curve.append(
             {
                 "epoch": epoch,
@@ -117,6 +117,7 @@ def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -
                 "validation_accuracy": round(known_right, 4),
                 "hidden_loss": round(hidden, 5),
                 "hidden_accuracy": round(hidden_right, 4),
+                "refusal_loss": round(refused_loss, 5),
                 "refusal_accuracy": round(refused_right, 4),
             }
         )

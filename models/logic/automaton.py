@@ -49,7 +49,8 @@ class Automaton:
 
     def read(self, states: NDArray[np.integer], letters: NDArray[np.integer]) -> NDArray[np.int32]:
         """The states after each of `states` has read its letter; shapes broadcast."""
-        return self.successors[states, letters]
+        after: NDArray[np.int32] = self.successors[states, letters]
+        return after
 
     def run(self, letters: Iterable[int]) -> list[int]:
         """The states visited while reading a word, the initial one first: one more than there are letters."""

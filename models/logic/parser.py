@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any
+from typing import TypeVar
 
 from lark import Lark, Token, Transformer, v_args
 from lark.exceptions import UnexpectedInput
@@ -35,6 +35,8 @@ from models.logic.formula import (
 )
 from models.logic.names import from_token
 from models.logic.syntax import Reading, complain, refuse
+
+T = TypeVar("T")
 
 MAX_TEXT = 65_536
 """Longest text of a formula, in characters."""
@@ -77,7 +79,7 @@ def _read(text: str, start: str) -> Formula:
             reading.take(token)
             if len(reading.open_brackets) > MAX_DEPTH + 1:  # the arguments of the innermost atom are one more
                 raise FormulaTooLargeError(f"parentheses are nested more than {MAX_DEPTH} deep")
-        result: Any = cursor.feed_eof(reading.last)
+        result: _Part = cursor.feed_eof(reading.last)  # type: ignore[no-untyped-call]
     except UnexpectedInput as error:
         complain(reading, error)
     except _BadName as error:
@@ -148,7 +150,7 @@ def _chain(op: Op, left: _Part, right: _Part) -> _Chain:
     return chain
 
 
-def _guarded(token: Token, make: Callable[[], Any]) -> Any:
+def _guarded(token: Token, make: Callable[[], T]) -> T:
     try:
         return make()
     except InvalidNameError as error:

@@ -121,11 +121,9 @@ def _infix(style: _Style, node: Formula, operands: tuple[str, ...]) -> str:
 
 def _unary_operand(style: _Style, op: Op, operand: Formula, text: str) -> str:
     grouped = isinstance(operand, (Binary, Nary))
-    if op is Op.NOT:
-        gap = "" if grouped else style.not_gap
-    else:
-        gap = style.group_gap if grouped else style.gap
-    return gap + (f"({text})" if grouped else text)
+    if grouped:
+        return ("" if op is Op.NOT else style.group_gap) + f"({text})"
+    return (style.not_gap if op is Op.NOT else style.gap) + text
 
 
 def _side(op: Op, operand: Formula, text: str) -> str:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic.automaton import Automaton
+from models.logic.effort import obligations
 from models.logic.errors import FormulaNotCosafeError, FormulaTooLargeError, SpotMissingError
 from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms, build, fold
 from models.logic.printer import atom_text, to_text
@@ -25,7 +26,10 @@ MAX_ATOMS = 16
 """Most distinct atoms in what is translated or compared."""
 MAX_TABLE = 1 << 22
 """Most entries of an automaton's table: states times 2 ** atoms."""
+MAX_OBLIGATIONS = 4_096
+"""Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
 _MAX_SUBSETS = 20_000  # states of any intermediate deterministic automaton
+_MAX_EDGES = 4_000_000  # its edges, which bounds the time as well: some seconds
 
 _CLASSES = (
     ("is_syntactic_safety", "it is a safety property: it can only be broken"),
@@ -46,6 +50,8 @@ class _Vocabulary:
         found = tuple(dict.fromkeys(atom for formula in formulas for atom in atoms(formula)))
         if len(found) > MAX_ATOMS:
             raise FormulaTooLargeError(f"there are {len(found)} different atoms; at most {MAX_ATOMS} can be handled")
+        if any(obligations(formula) > MAX_OBLIGATIONS for formula in formulas):
+            raise FormulaTooLargeError("the formula asks for too many things at once for an automaton to keep apart")
         return cls(found)
 
     def encode(self, formula: Formula) -> Any:
@@ -196,9 +202,8 @@ def _minimal(formula: Formula, vocabulary: _Vocabulary, encoded: Any) -> _Minima
     dictionary = spot.make_bdd_dict()  # a fresh one, so that no earlier call has a say in the order of variables
     keeper = spot.make_twa_graph(dictionary)
     variables = tuple(keeper.register_ap(f"p{i}") for i in range(len(vocabulary.atoms)))
-    most = max(1024, min(_MAX_SUBSETS, (4 * MAX_TABLE) >> len(variables)))
     options = (
-        f"wdba-minimize=1,wdba-det-max={most},det-max-states=2,det-max-edges=2,"
+        f"wdba-minimize=1,wdba-det-max=0,det-max-states={_MAX_SUBSETS},det-max-edges={_MAX_EDGES},"
         "simul=0,ba-simul=0,det-simul=0,det-stutter=0,gf-guarantee=0"
     )
     graph = spot.translate(encoded, "buchi", "det", "low", "complete", "sbacc", dict=dictionary, xargs=options)

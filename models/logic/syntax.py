@@ -1,4 +1,4 @@
-"""Syntax errors of formulas as sentences with a place: what was expected, what was found, and a hint where one helps."""
+"""Syntax errors of formulas as sentences with a place: what was expected, what was found, and perhaps a hint."""
 
 from __future__ import annotations
 
@@ -47,10 +47,9 @@ class Reading:
         if token.type in ("LPAR", "LBRACE"):
             arguments = token.type == "LPAR" and self.last is not None and self.last.type in _FUNCTIONS
             self.open_brackets.append(Bracket(str(token), token.start_pos or 0, arguments))
-        elif token.type in ("RPAR", "RBRACE") and self.open_brackets:
+        elif self.open_brackets and _CLOSING[self.open_brackets[-1].text] == token:
             # One that does not match stays on the stack for the error that the parser is going to raise.
-            if _CLOSING[self.open_brackets[-1].text] == token:
-                self.open_brackets.pop()
+            self.open_brackets.pop()
         self.before_last, self.last = self.last, token
 
     def refuse_last(self) -> None:
@@ -71,7 +70,7 @@ def complain(reading: Reading, error: UnexpectedInput) -> NoReturn:
     text = reading.text
     if not text.strip():
         refuse(text, 0, "the formula is empty")
-    position = error.pos_in_stream or 0
+    position: int = error.pos_in_stream or 0
     if isinstance(error, UnexpectedToken) and error.token.type == "$END":
         position = len(text.rstrip())
     elif reading.last is not None and reading.last.start_pos == position:

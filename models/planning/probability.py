@@ -103,6 +103,8 @@ def iterate_intervals(
                 break
             if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
                 _solve_directly(operator, lower, upper)
+                if float((upper - lower).max()) <= options.epsilon:
+                    break
             if gap == previous and gap <= options.epsilon and sweep % DIRECT_AFTER == 0:
                 break  # as close as floating point gets
     return operator.numpy(lower), operator.numpy(upper)

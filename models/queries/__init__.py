@@ -1,6 +1,6 @@
 """Contextual queries, lifting and templates: the CQ-LTL algorithm of the paper.
 
-    contextual query + grounded LTL  ──learn──►  Template  ──evaluate(query, environment)──►  grounded LTL
+contextual query + grounded LTL  ──learn──►  Template  ──evaluate(query, environment)──►  grounded LTL
 """
 
 from models.queries.contextual_query import (

@@ -59,7 +59,13 @@ class AmbiguousGroundingError(CqltlError):
     slug = "ambiguous-grounding"
 
     def __init__(
-        self, detail: str, *, position: int, phrase: str, candidates: Sequence[Candidate], places: Sequence[Place]
+        self,
+        detail: str,
+        *,
+        position: int,
+        phrase: str,
+        candidates: Sequence[Candidate],
+        places: Sequence[Place],
     ) -> None:
         super().__init__(detail, places=places)
         self.position = position

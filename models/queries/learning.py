@@ -60,7 +60,7 @@ def learn(examples: Sequence[Example], environment: Environment) -> Template:
     choices = [_feasible(examples, index, distinct, environment) for index in range(arity)]
     mapping = _only_mapping(examples[0].query, choices)
     positions = {column: position for position, column in enumerate(mapping, start=1)}
-    _require_constant(resolved[0], columns, positions)
+    _require_constant(columns, positions)
     formula = _tie(resolved[0], iter(columns), positions)
     kinds = parameter_kinds(formula, environment, arity)
     return Template(task, formula, lift(resolved[0], environment).formula, kinds)
@@ -102,9 +102,7 @@ def _feasible(
             raise UnknownObjectError(detail, places=[Place(pointer, detail)])
         remaining = [column for column in remaining if column[number] in symbols]
         if not remaining:
-            detail = f'the formula does not mention "{phrase}"' + (
-                " where the examples before it do" if number else ""
-            )
+            detail = f'the formula does not mention "{phrase}"' + (" where the examples before it do" if number else "")
             raise UnusedParameterError(detail, places=[Place(pointer, detail)])
     return remaining
 
@@ -144,7 +142,7 @@ def _ambiguous(query: ContextualQuery, culprits: Sequence[int]) -> AmbiguousPara
     return AmbiguousParameterMappingError(detail, places=places)
 
 
-def _require_constant(formula: Formula, columns: Sequence[Column], positions: dict[Column, int]) -> None:
+def _require_constant(columns: Sequence[Column], positions: dict[Column, int]) -> None:
     for column in columns:
         if column not in positions and len(set(column)) > 1:
             names = " and ".join(dict.fromkeys(symbol.name for symbol in column))

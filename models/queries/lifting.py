@@ -62,9 +62,7 @@ def occurrences(formula: Formula) -> Iterator[Atom]:
 def slots(formula: Formula, environment: Environment) -> tuple[tuple[Atom, Symbol], ...]:
     """The symbol at every argument place of every atom occurrence, left to right, with its atom."""
     known = {atom: atom_symbols(atom, environment) for atom in atoms(formula)}
-    return tuple(
-        (atom, symbol) for atom in occurrences(formula) for symbol in known[atom] if symbol is not None
-    )
+    return tuple((atom, symbol) for atom in occurrences(formula) for symbol in known[atom] if symbol is not None)
 
 
 def shape(formula: Formula) -> Shape:

@@ -136,9 +136,7 @@ def _ground_argument(
     elsewhere = ground(phrase, environment).candidates
     if elsewhere:
         other = elsewhere[0].symbol
-        detail = (
-            f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
-        )
+        detail = f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
         raise TypeMismatchError(detail, places=[Place(pointer, detail)])
     detail = f'nothing in {environment.name} is called "{phrase}"; argument {index + 1} of {query.task} is a {wanted}'
     raise UnknownObjectError(detail, places=[Place(pointer, detail)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
@@ -58,9 +58,7 @@ def ground_actions(
     for action in evaluator.model.domain.actions:
         total += prod(len(evaluator.members(argument.kinds)) for argument in action.arguments)
         if total > MAX_GROUNDINGS:
-            raise ActionError(
-                ("actions", action.name), f"the actions have more than {MAX_GROUNDINGS} groundings"
-            )
+            raise ActionError(("actions", action.name), f"the actions have more than {MAX_GROUNDINGS} groundings")
         for binding in _bindings(evaluator, action.arguments):
             try:
                 made = grounder.ground(action, binding)
@@ -79,9 +77,7 @@ def _bindings(evaluator: Evaluator, arguments: tuple[Argument, ...]) -> Iterator
 
 
 class _Grounder:
-    def __init__(
-        self, evaluator: Evaluator, strides: tuple[int, ...], constraints: tuple[Value, ...]
-    ) -> None:
+    def __init__(self, evaluator: Evaluator, strides: tuple[int, ...], constraints: tuple[Value, ...]) -> None:
         self.evaluator = evaluator
         self.algebra: Algebra = evaluator.algebra
         self.strides = strides
@@ -122,9 +118,9 @@ class _Grounder:
             raise ActionError(path, f"{name}: the probability is not between 0 and 1{witness}")
 
     def _sums_to_one(self, probabilities: tuple[Value, ...], enabled: Value, path: Path, name: str) -> None:
-        zero: Value = Table((), np.array(0.0))
-        total = self.algebra.fold(np.add, [zero, *probabilities])
-        wrong = self.algebra.combine(_not_one, total)
+        if not probabilities:
+            raise ActionError((*path, "outcomes"), f"{name}: no outcome has a probability above 0")
+        wrong = self.algebra.combine(_not_one, self.algebra.fold(np.add, probabilities))
         if witness := self._witness(wrong, enabled, (*path, "outcomes")):
             raise ActionError((*path, "outcomes"), f"{name}: the probabilities do not sum to 1{witness}")
 
@@ -152,24 +148,20 @@ class _Grounder:
             shown.append(f"{variable.owner.name}.{variable.attribute} is {value.name if value else NONE}")
         return f" when {' and '.join(shown)}" if shown else " anywhere"
 
-    def _changes(
-        self, outcome: Outcome, binding: Mapping[str, Symbol], scope: Mapping[str, Value]
-    ) -> dict[int, Value]:
+    def _changes(self, outcome: Outcome, binding: Mapping[str, Symbol], scope: Mapping[str, Value]) -> dict[int, Value]:
         changes: dict[int, Value] = {}
         for effect in outcome.effects:
             owner = binding.get(effect.owner) or self.evaluator.model.objects[effect.owner]
             position = self.evaluator.positions[owner, effect.attribute]
             if position in changes:
-                detail = (
-                    f"{owner.name}.{effect.attribute} is set twice when two arguments are the same object"
-                )
+                detail = f"{owner.name}.{effect.attribute} is set twice when two arguments are the same object"
                 raise ExpressionError(f"{detail}: exclude that in `when`")
             changes[position] = self.evaluator.evaluate(effect.value, scope)
         return changes
 
     def _shift(self, changes: Mapping[int, Value], happens: Value, path: Path, name: str) -> Value:
         """What the changes add to the index of the state."""
-        shifts: list[Value] = [Table((), np.array(0, dtype=np.int64))]
+        shifts: list[Value] = []
         for position, value in changes.items():
             variable = self.evaluator.model.variables[position]
             digit = self.algebra.combine(self._digit_of(variable.values).__getitem__, value)
@@ -181,7 +173,7 @@ class _Grounder:
             old = self.algebra.variable(position, np.arange(radix, dtype=np.int64) * stride)
             new = self.algebra.combine((np.arange(radix + 1, dtype=np.int64) * stride).__getitem__, digit)
             shifts.append(self.algebra.combine(np.subtract, new, old))
-        return self.algebra.fold(np.add, shifts)
+        return self.algebra.fold(np.add, shifts) if shifts else Table((), np.array(0, dtype=np.int64))
 
     def _digit_of(self, values: tuple[Symbol | None, ...]) -> NDArray[np.int64]:
         """Symbol number to digit, -1 for a symbol that is not among the values."""
@@ -195,9 +187,7 @@ class _Grounder:
 
     def _kept(self, probability: Value, changes: Mapping[int, Value]) -> Iterator[Value]:
         """For each constraint that the changes touch: where it holds after them, or they do not happen."""
-        touched = [
-            i for i, value in enumerate(self.constraints) if not changes.keys().isdisjoint(value.scope)
-        ]
+        touched = [i for i, value in enumerate(self.constraints) if not changes.keys().isdisjoint(value.scope)]
         if not touched:
             return
         after = self.evaluator.overriding(changes)
@@ -211,6 +201,8 @@ class _Grounder:
         parts = (*action.probabilities, *action.shifts)
         scope = tuple(sorted({v for part in parts for v in part.scope}))
         count, size = len(action.probabilities), self.algebra.entries(scope)
+        if count == 1:
+            return replace(action, merged=True)
         if not all(isinstance(part, Table) for part in parts) or size > MAX_TABLE:
             return action
         self.algebra.spend(size * count * (count + 2))

@@ -78,9 +78,7 @@ class Batch:
     radix: tuple[int, ...]
     strides: tuple[int, ...]
     states: NDArray[np.int64]
-    digits: dict[int, NDArray[np.int64]] = field(
-        default_factory=dict
-    )  # by variable, as far as they are known
+    digits: dict[int, NDArray[np.int64]] = field(default_factory=dict)  # by variable, as far as they are known
     _flat: dict[tuple[int, ...], NDArray[np.int64]] = field(default_factory=dict)
 
     def spread(self, table: Table) -> Array:
@@ -131,15 +129,18 @@ class Algebra:
 
     def combine(self, operation: Operation, *parts: Value) -> Value:
         """`operation`, which must broadcast, applied to the parts: a table when it fits."""
-        scope = tuple(sorted({v for part in parts for v in part.scope}))
+        scopes = {part.scope for part in parts if part.scope}
+        scope = tuple(sorted({v for each in scopes for v in each}))
         size = self.entries(scope)
         tables = [part for part in parts if isinstance(part, Table)]
         if size > MAX_TABLE or len(tables) < len(parts):
             self.spend(_OVERHEAD)
             return Combined(scope, operation, parts)
         self.spend(size * len(parts) + _OVERHEAD)
+        if len(scopes) <= 1:  # constants broadcast as they are
+            return Table(scope, np.asarray(operation(*[table.array for table in tables])))
         box = Box(self.radix, scope)
-        return Table(scope, np.asarray(operation(*(box.spread(table) for table in tables))))
+        return Table(scope, np.asarray(operation(*[box.spread(table) for table in tables])))
 
     def fold(self, operation: Operation, parts: Iterable[Value]) -> Value:
         """An associative, commutative operation over one or more parts, merged into tables as far as they
@@ -176,6 +177,4 @@ class Algebra:
         """Counts work, in table entries. Raises ExpressionError beyond the limit."""
         self.spent += work
         if self.spent > MAX_WORK:
-            raise ExpressionError(
-                "the world takes too much work to compile: use fewer objects or simpler expressions"
-            )
+            raise ExpressionError("the world takes too much work to compile: use fewer objects or simpler expressions")

@@ -101,9 +101,7 @@ def _grid(
 
 
 def _default_toys(count: int) -> list[tuple[str, str]]:
-    mixed = [
-        (shape, _COLORS[(i + j) % len(_COLORS)]) for j, (i, shape) in product(range(8), enumerate(_SHAPES))
-    ]
+    mixed = [(shape, _COLORS[(i + j) % len(_COLORS)]) for j, (i, shape) in product(range(8), enumerate(_SHAPES))]
     return list(islice(mixed, count))
 
 

@@ -150,8 +150,7 @@ class Checker:
             raise ExpressionError(f"nothing is called {name}{hint(name, known)}")
         if len(meanings) > 1:
             raise ExpressionError(
-                f"{name} means several things: {listing(describe(m) for m in meanings)}; "
-                "write a value as type.value"
+                f"{name} means several things: {listing(describe(m) for m in meanings)}; write a value as type.value"
             )
         return meanings[0]
 
@@ -165,9 +164,7 @@ class Checker:
         for kind in base.type - {NONE}:
             declared = self.classes.get(kind)
             kinds = {**declared.static, **declared.state}.get(expression.attribute) if declared else None
-            partial = (
-                partial or kinds is None or (declared is not None and expression.attribute in declared.static)
-            )
+            partial = partial or kinds is None or (declared is not None and expression.attribute in declared.static)
             found.update(kinds or ())
         if not found:
             known = [name for kind in base.type if kind in self.classes for name in self._attributes(kind)]
@@ -194,17 +191,14 @@ class Checker:
         try:
             result = self.definition(name)
         except ExpressionError as error:
-            raise (
-                error if name in self._open else BrokenDefinitionError(f"{name} is not well defined")
-            ) from error
+            raise (error if name in self._open else BrokenDefinitionError(f"{name} is not well defined")) from error
         depth = result.depth
         for argument, given in zip(arguments, expression.arguments, strict=True):
             typed = self._entity(given, scope)
             wrong = typed.type - {NONE, *argument.kinds}
             if wrong:
                 raise ExpressionError(
-                    f"{argument.name} of {name} must be {listing(argument.kinds)}, "
-                    f"but may be {describe(wrong)} here"
+                    f"{argument.name} of {name} must be {listing(argument.kinds)}, but may be {describe(wrong)} here"
                 )
             depth = max(depth, typed.depth)
         return Typed(result.type, 1 + depth)
@@ -232,9 +226,7 @@ class Checker:
         then, otherwise = self.check(expression.then, scope), self.check(expression.otherwise, scope)
         special = {BOOLEAN, NUMBER} & {then.type, otherwise.type}
         if special and then.type != otherwise.type:
-            raise ExpressionError(
-                f"one branch is {describe(then.type)}, the other {describe(otherwise.type)}"
-            )
+            raise ExpressionError(f"one branch is {describe(then.type)}, the other {describe(otherwise.type)}")
         depth = max(condition.depth, then.depth, otherwise.depth)
         return Typed(then.type | otherwise.type, 1 + depth)
 
@@ -259,9 +251,7 @@ def scope_of(arguments: tuple[Argument, ...]) -> dict[str, Type]:
     return {argument.name: frozenset(argument.kinds) for argument in arguments}
 
 
-def qualified_value(
-    expression: Access, scope: Mapping[str, object], attributes: Mapping[str, tuple[str, ...]]
-) -> bool:
+def qualified_value(expression: Access, scope: Mapping[str, object], attributes: Mapping[str, tuple[str, ...]]) -> bool:
     """Whether this is `color.red`: a value of an attribute type, not an attribute of an object."""
     base = expression.base
     return (

@@ -70,6 +70,4 @@ def _plain_literal(literal: str) -> str:
 def _spellings(symbols: tuple[Symbol, ...], vocabulary: Vocabulary) -> list[tuple[str, Symbol]]:
     """Names before synonyms, so that a name's reading comes first."""
     names = [(_plain(symbol.name), symbol) for symbol in symbols]
-    return names + [
-        (_plain(other), symbol) for symbol in symbols for other in vocabulary.synonyms.get(symbol, ())
-    ]
+    return names + [(_plain(other), symbol) for symbol in symbols for other in vocabulary.synonyms.get(symbol, ())]

@@ -72,13 +72,9 @@ class _Reader:
             return None
         checker = Checker(attributes, classes, spec.constants, parameters, definitions)
         self._check_definitions(checker)
-        functions = {
-            name: self._function(name, body, definitions[name]) for name, body in spec.functions.items()
-        }
+        functions = {name: self._function(name, body, definitions[name]) for name, body in spec.functions.items()}
         actions = tuple(self._action(name, body, checker) for name, body in spec.actions.items())
-        constraints = [
-            self._typed(("constraints", i), text, {}, checker) for i, text in enumerate(spec.constraints)
-        ]
+        constraints = [self._typed(("constraints", i), text, {}, checker) for i, text in enumerate(spec.constraints)]
         return Domain(
             spec.name, parameters, attributes, classes, dict(spec.constants), definitions, functions, actions,
             tuple(constraints), tuple(spec.constraints),
@@ -130,9 +126,7 @@ class _Reader:
         if len(spec.words) > MAX_SYNONYMS:
             self.report.add([*path, "words"], f"at most {MAX_SYNONYMS} entries")
         read = {
-            section: {
-                a: self._kinds(kinds, (*path, section, a), none=True) for a, kinds in attributes.items()
-            }
+            section: {a: self._kinds(kinds, (*path, section, a), none=True) for a, kinds in attributes.items()}
             for section, attributes in sections.items()
         }
         return ObjectClass(name, read["static"], read["state"], tuple(spec.words))
@@ -144,9 +138,7 @@ class _Reader:
             return kinds[:1]
         for kind in kinds:
             if kind not in self.kinds and not (none and kind == NONE):
-                self.report.add(
-                    path, f"no class or attribute is called {kind[:MAX_NAME]!r}{hint(kind, self.kinds)}"
-                )
+                self.report.add(path, f"no class or attribute is called {kind[:MAX_NAME]!r}{hint(kind, self.kinds)}")
         return kinds
 
     def _parameter(self, name: str) -> Parameter:
@@ -175,9 +167,7 @@ class _Reader:
         yield from (("functions", name, body) for name, body in self.spec.functions.items())
 
     def _definition(self, path: tuple[str, str], spec: DefinitionSpec) -> Definition:
-        return Definition(
-            path[1], self._arguments(path, spec.arguments), self._parse((*path, "is"), spec.expression)
-        )
+        return Definition(path[1], self._arguments(path, spec.arguments), self._parse((*path, "is"), spec.expression))
 
     def _arguments(self, path: tuple[str, str], texts: list[str]) -> tuple[Argument, ...]:
         if len(texts) > MAX_ARGUMENTS:
@@ -218,13 +208,7 @@ class _Reader:
     def _function(self, name: str, spec: FunctionSpec, definition: Definition) -> Function:
         arguments = definition.arguments
         listed = ", ".join(f"{{{argument.name}}}" for argument in arguments)
-        says = (
-            spec.says
-            if spec.says is not None
-            else f"{name}({listed})"
-            if arguments
-            else name.replace("_", " ")
-        )
+        says = spec.says if spec.says is not None else f"{name}({listed})" if arguments else name.replace("_", " ")
         denies = spec.denies if spec.denies is not None else _denial(says)
         path = ("functions", name)
         for place, pattern in (("says", says), ("denies", denies)):
@@ -234,9 +218,7 @@ class _Reader:
         parameters = tuple(FunctionParameter(a.name, frozenset(a.kinds)) for a in arguments)
         return Function(name, parameters, says, denies, tuple(spec.display))
 
-    def _pattern(
-        self, path: tuple[str | int, ...], pattern: str, arguments: tuple[Argument, ...]
-    ) -> list[str]:
+    def _pattern(self, path: tuple[str | int, ...], pattern: str, arguments: tuple[Argument, ...]) -> list[str]:
         names = [argument.name for argument in arguments]
         holes = _HOLE.findall(pattern)
         for hole in holes:
@@ -276,8 +258,7 @@ class _Reader:
             self.report.add([*path, "set"], f"at most {MAX_DECLARATIONS} entries")
             return Outcome(probability, ())
         effects = [
-            self._effect((*path, "set", target), target, text, scope, checker)
-            for target, text in spec.set.items()
+            self._effect((*path, "set", target), target, text, scope, checker) for target, text in spec.set.items()
         ]
         return Outcome(probability, tuple(effect for effect in effects if effect))
 
@@ -310,9 +291,7 @@ class _Reader:
         try:
             typed = checker.check(value, scope)
             if not typed.type & allowed:
-                self.report.add(
-                    path, f"{target} may be {describe(frozenset(allowed))}, never {describe(typed.type)}"
-                )
+                self.report.add(path, f"{target} may be {describe(frozenset(allowed))}, never {describe(typed.type)}")
         except BrokenDefinitionError:
             pass
         except ExpressionError as error:

@@ -64,26 +64,18 @@ class _Reader:
         declared = self.domain.parameters
         for name, value in self.spec.parameters.items():
             if name not in declared:
-                self.report.add(
-                    ["parameters", name], f"the domain has no parameter {name}{hint(name, declared)}"
-                )
+                self.report.add(["parameters", name], f"the domain has no parameter {name}{hint(name, declared)}")
             elif not declared[name].minimum <= value <= declared[name].maximum:
                 low, high = declared[name].minimum, declared[name].maximum
-                self.report.add(
-                    ["parameters", name], f"{name} must be between {low:g} and {high:g}, not {value:g}"
-                )
-        return {
-            name: self.spec.parameters.get(name, parameter.default) for name, parameter in declared.items()
-        }
+                self.report.add(["parameters", name], f"{name} must be between {low:g} and {high:g}, not {value:g}")
+        return {name: self.spec.parameters.get(name, parameter.default) for name, parameter in declared.items()}
 
     def _values(self) -> None:
         listed: list[Symbol] = []
         known = self.domain.attributes
         for kind in self.spec.values:
             if kind not in known:
-                self.report.add(
-                    ["values", kind], f"the domain has no attribute type {kind}{hint(kind, known)}"
-                )
+                self.report.add(["values", kind], f"the domain has no attribute type {kind}{hint(kind, known)}")
         for kind, values in known.items():
             more = read_values(self.spec.values.get(kind, []), ("values", kind), self.report)
             listed += [Symbol(kind, value) for value in dict.fromkeys((*values, *more))]
@@ -112,15 +104,11 @@ class _Reader:
         declared = self.domain.classes.get(grid.class_)
         if declared is None:
             known = self.domain.classes
-            self.report.add(
-                ["grid", "class"], f"the domain has no class {grid.class_}{hint(grid.class_, known)}"
-            )
+            self.report.add(["grid", "class"], f"the domain has no class {grid.class_}{hint(grid.class_, known)}")
             return {}
         missing = [d for d in _COMPASS if grid.class_ not in declared.static.get(d, ())]
         if missing:
-            self.report.add(
-                ["grid", "class"], f"{grid.class_} needs static {listing(missing, 'and')}: {grid.class_}"
-            )
+            self.report.add(["grid", "class"], f"{grid.class_} needs static {listing(missing, 'and')}: {grid.class_}")
         read = read_grid(grid, self.report)
         for name in read.cells:
             if name in self.objects:
@@ -134,9 +122,7 @@ class _Reader:
             self.report.add(path, fault)
         if spec.class_ not in self.domain.classes:
             known = self.domain.classes
-            self.report.add(
-                [*path, "class"], f"the domain has no class {spec.class_}{hint(spec.class_, known)}"
-            )
+            self.report.add([*path, "class"], f"the domain has no class {spec.class_}{hint(spec.class_, known)}")
         elif name in self.objects and self.objects[name].kind != spec.class_:
             self.report.add([*path, "class"], f"{name} is a {self.objects[name].kind} already")
         if len(spec.synonyms) > MAX_SYNONYMS:
@@ -176,9 +162,7 @@ class _Reader:
                 kinds = declared[attribute]
                 allowed = ranges.setdefault(kinds, self._range(kinds))
                 if value not in allowed and value != NONE:
-                    self.report.add(
-                        path, f"{attribute} must be {listing(kinds)}, not {value}{hint(value, allowed)}"
-                    )
+                    self.report.add(path, f"{attribute} must be {listing(kinds)}, not {value}{hint(value, allowed)}")
                 elif found := allowed.get(value):
                     self.static.setdefault(symbol, {})[attribute] = found
 
@@ -190,14 +174,10 @@ class _Reader:
                 if kinds not in ranges:
                     ranges[kinds] = self._distinct(kinds, attribute)
                 if not ranges[kinds]:
-                    self.report.add(
-                        ["objects"], f"{attribute} of {name} has no possible value: no {listing(kinds)}"
-                    )
+                    self.report.add(["objects"], f"{attribute} of {name} has no possible value: no {listing(kinds)}")
                 variables.append(StateAttribute(symbol, attribute, ranges[kinds]))
         if len(variables) > MAX_VARIABLES:
-            self.report.add(
-                ["objects"], f"the objects have more than {MAX_VARIABLES} state attributes together"
-            )
+            self.report.add(["objects"], f"the objects have more than {MAX_VARIABLES} state attributes together")
         return tuple(variables)
 
     def _distinct(self, kinds: tuple[str, ...], attribute: str) -> tuple[Symbol | None, ...]:
@@ -205,9 +185,7 @@ class _Reader:
         for name in named:
             homonyms = [kind for kind in kinds if Symbol(kind, name) in self.members.get(kind, ())]
             if len(homonyms) > 1:
-                self.report.add(
-                    ["objects"], f"{attribute} may be two things called {name}: {listing(homonyms, 'and')}"
-                )
+                self.report.add(["objects"], f"{attribute} may be two things called {name}: {listing(homonyms, 'and')}")
         return tuple(named.values())
 
     def _initial(self, variables: tuple[StateAttribute, ...]) -> list[int]:
@@ -221,9 +199,7 @@ class _Reader:
             for attribute in attributes:
                 if attribute not in known.get(name, {}):
                     fix = hint(attribute, known.get(name, {}))
-                    self.report.add(
-                        ["state", name, attribute], f"{name} has no state attribute {attribute}{fix}"
-                    )
+                    self.report.add(["state", name, attribute], f"{name} has no state attribute {attribute}{fix}")
         return [self._digit(variable) for variable in variables]
 
     def _digit(self, variable: StateAttribute) -> int:

@@ -56,9 +56,7 @@ class Evaluator:
         self.model = model
         self.algebra = algebra
         self.numbers = {symbol: index for index, symbol in enumerate(model.symbols, start=1)}
-        self._constants = [
-            Table((), np.array(number, dtype=np.int32)) for number in range(len(model.symbols) + 1)
-        ]
+        self._constants = [Table((), np.array(number, dtype=np.int32)) for number in range(len(model.symbols) + 1)]
         self.positions = {(v.owner, v.attribute): position for position, v in enumerate(model.variables)}
         ranges = {id(v.values): v.values for v in model.variables}  # few tuples, shared by many variables
         numbered = {key: self._numbered(values) for key, values in ranges.items()}
@@ -134,9 +132,7 @@ class Evaluator:
         key = (name, tuple(arguments))
         if key not in self._calls:
             definition = self.model.domain.definitions[name]
-            scope = {
-                argument.name: value for argument, value in zip(definition.arguments, arguments, strict=True)
-            }
+            scope = {argument.name: value for argument, value in zip(definition.arguments, arguments, strict=True)}
             self._calls[key] = self.evaluate(definition.body, scope)
         return self._calls[key]
 
@@ -166,18 +162,14 @@ class Evaluator:
 
     def _access(self, expression: Access, scope: Scope) -> Value:
         attribute = expression.attribute
-        if isinstance(expression.base, Variable) and qualified_value(
-            expression, scope, self.model.domain.attributes
-        ):
+        if isinstance(expression.base, Variable) and qualified_value(expression, scope, self.model.domain.attributes):
             return self.symbol(Symbol(expression.base.name, attribute))
         base = self.evaluate(expression.base, scope)
         static = self._table(attribute)
         owners = self._owners.get(attribute, {})
         if isinstance(base, Table) and not base.scope:
             number = int(base.array)
-            return (
-                self._variables[owners[number]] if number in owners else self._constants[int(static[number])]
-            )
+            return self._variables[owners[number]] if number in owners else self._constants[int(static[number])]
         reachable = [number for number in self._reachable(base) if number in owners] if owners else []
         if not reachable:
             return self._remember(self.algebra.combine(static.__getitem__, base), None)
@@ -208,18 +200,14 @@ class Evaluator:
 
     def _remember(self, value: Value, reach: set[int] | None) -> Value:
         if isinstance(value, Combined):
-            self._reach[value] = (
-                tuple(sorted(reach)) if reach is not None else tuple(range(len(self._constants)))
-            )
+            self._reach[value] = tuple(sorted(reach)) if reach is not None else tuple(range(len(self._constants)))
         return value
 
     def _reachable(self, value: Value) -> tuple[int, ...]:
         """The numbers that an object-valued function may take."""
         if value not in self._reach:
             every = range(len(self._constants))
-            self._reach[value] = (
-                tuple(np.unique(value.array).tolist()) if isinstance(value, Table) else tuple(every)
-            )
+            self._reach[value] = tuple(np.unique(value.array).tolist()) if isinstance(value, Table) else tuple(every)
         return self._reach[value]
 
     def _is(self, value: Value, kinds: tuple[str, ...]) -> Value:

@@ -44,7 +44,7 @@ class _Speaker:
             case Constant(value=value):
                 return "anything is allowed" if value else "the impossible happens"
             case Atom():
-                return self._atom(formula, denied=False)
+                return self._atom(formula)
             case Unary():
                 return self._unary(formula)
             case Binary():
@@ -70,28 +70,29 @@ class _Speaker:
             case Constant(value=value):
                 return self.say(Constant(not value))
             case Unary(op=Op.FINALLY, operand=inner):
-                return f"never {self._clause(inner)}"
+                return self._never(inner)
             case _:
-                return f"it is not so that {self._clause(operand)}"
+                return f"it is not so that {self._clause(operand, last=True)}"
 
     def _next(self, formula: Formula) -> str:
         steps = 0
         while isinstance(formula, Unary) and formula.op is Op.NEXT:
             formula, steps = formula.operand, steps + 1
         when = "in the next step" if steps == 1 else f"in {steps} steps"
-        return f"{when} {self._clause(formula)}"
+        return f"{when} {self._clause(formula, last=True)}"
 
     def _finally(self, operand: Formula) -> str:
         match operand:
             case Unary(op=Op.GLOBALLY, operand=inner):
-                return f"from some time on, always {self._clause(inner)}"
+                return f"from some time on, always {self._clause(inner, last=True)}"
             case Unary(op=Op.FINALLY, operand=inner):
                 return self._finally(inner)
-        steps = _sequence(operand)
-        said = [self._clause(steps[0][0])]
-        for (now, before), link in zip(steps[1:], [link for _, link in _links(operand)], strict=True):
-            said.append(f"{link} {self._while(now, before)}")
-        return f"eventually {', '.join(said)}"
+        first, *later = _steps(operand)
+        said, before = self._clause(first[1], last=not later), first[1]
+        for link, now in later:
+            said += f", {link} {self._while(now, before)}"
+            before = now
+        return f"eventually {said}"
 
     def _while(self, now: Formula, before: Formula) -> str:
         """A later step; what already held in the step before is said last: `b while a`."""
@@ -106,15 +107,21 @@ class _Speaker:
     def _globally(self, operand: Formula) -> str:
         match operand:
             case Unary(op=Op.NOT, operand=inner):
-                return f"never {self._clause(inner)}"
+                return self._never(inner)
             case Unary(op=Op.FINALLY, operand=inner):
-                return f"again and again {self._clause(inner)}"
+                return f"again and again {self._clause(inner, last=True)}"
             case Unary(op=Op.GLOBALLY, operand=inner):
                 return self._globally(inner)
             case Binary(op=Op.IMPLIES, left=left, right=right):
                 return f"whenever {self._clause(left)}, {self._clause(right)}"
             case _:
-                return f"always {self._clause(operand)}"
+                return f"always {self._clause(operand, last=True)}"
+
+    def _never(self, formula: Formula) -> str:
+        said = self._clause(formula, last=True)
+        if isinstance(formula, Atom) and " is " in said:
+            return said.replace(" is ", " is never ", 1)
+        return f"never {said}"
 
     def _binary(self, formula: Binary) -> str:
         left, right = self._clause(formula.left), self._clause(formula.right)
@@ -130,19 +137,24 @@ class _Speaker:
             case Op.RELEASE:
                 return f"{right} up to and including when {left}, or for ever"
             case _:
-                return f"{right} up to and including when {left}"
+                return f"{right} up to and including when {left}, which must happen"
 
     def _nary(self, formula: Nary) -> str:
         said = [self._clause(operand) for operand in formula.operands]
         word = "and" if formula.op is Op.AND else "or"
         return f" {word} ".join(said)
 
-    def _clause(self, formula: Formula) -> str:
-        """The reading as a part of a larger one: in parentheses unless it is one short clause."""
+    def _clause(self, formula: Formula, *, last: bool = False) -> str:
+        """The reading as a part of a larger one: in parentheses unless it cannot be misread.
+
+        `last` says that nothing of the larger reading follows.
+        """
         said = self.say(formula)
+        if last and isinstance(formula, Nary) and _is_pair(formula):
+            return f"{'both' if formula.op is Op.AND else 'either'} {said}"
         return said if _is_clause(formula) else f"({said})"
 
-    def _atom(self, atom: Atom, *, denied: bool) -> str:
+    def _atom(self, atom: Atom, *, denied: bool = False) -> str:
         function = self._function(atom)
         if function is None:
             said = f"{atom.function.replace('_', ' ')}"
@@ -158,11 +170,7 @@ class _Speaker:
         if self.environment is None:
             return None
         found = self.environment.functions.get(self._resolved(atom).function)
-        return (
-            found
-            if found is not None and len(found.parameters) == len(self._resolved(atom).arguments)
-            else None
-        )
+        return found if found is not None and len(found.parameters) == len(self._resolved(atom).arguments) else None
 
     def _resolved(self, atom: Atom) -> Atom:
         if self.environment is None:
@@ -173,25 +181,34 @@ class _Speaker:
             return atom
 
 
+def _is_pair(formula: Nary) -> bool:
+    return len(formula.operands) == 2 and all(map(_is_literal, formula.operands))
+
+
+def _is_literal(formula: Formula) -> bool:
+    inner = formula.operand if isinstance(formula, Unary) and formula.op is Op.NOT else formula
+    return isinstance(inner, Atom | Constant)
+
+
 def _is_clause(formula: Formula) -> bool:
     match formula:
-        case Unary(op=Op.NOT, operand=operand):
-            return isinstance(operand, Atom | Constant)
+        case Unary(op=Op.NOT):
+            return _is_literal(formula)
         case Unary(op=Op.FINALLY | Op.GLOBALLY | Op.NEXT, operand=operand):
             return isinstance(operand, Atom) or (isinstance(operand, Unary) and _is_clause(operand))
         case _:
-            return isinstance(formula, Atom | Constant)
+            return _is_literal(formula)
 
 
-def _links(operand: Formula) -> list[tuple[Formula, str]]:
-    """The nested steps of `a & F (b & ...)` after the first: the operand of each F and the words that lead to
-    it.
-    """
-    links: list[tuple[Formula, str]] = []
-    while (inner := _later(operand)) is not None:
-        _, operand, link = inner
-        links.append((operand, link))
-    return links
+def _steps(operand: Formula) -> list[tuple[str, Formula]]:
+    """The steps of `a & F (b & X F c)`, each after the words that lead to it."""
+    steps: list[tuple[str, Formula]] = []
+    link = ""
+    while (found := _later(operand)) is not None:
+        now, operand, next_link = found
+        steps.append((link, now))
+        link = next_link
+    return [*steps, (link, operand)]
 
 
 def _later(operand: Formula) -> tuple[Formula, Formula, str] | None:
@@ -215,19 +232,6 @@ def _eventual(formula: Formula) -> tuple[Formula, str] | None:
             return operand, "and after that"
         case _:
             return None
-
-
-def _sequence(operand: Formula) -> list[tuple[Formula, Formula]]:
-    """Each step of `a & F (b & F c)` with the step before it: (a, a), (b, a), (c, b)."""
-    steps: list[tuple[Formula, Formula]] = []
-    before: Formula | None = None
-    while True:
-        later = _later(operand)
-        now = operand if later is None else later[0]
-        steps.append((now, before if before is not None else now))
-        if later is None:
-            return steps
-        before, operand = now, later[1]
 
 
 def _spoken(term: Term) -> str:

@@ -80,9 +80,7 @@ def read_explicit(spec: ExplicitSpec, report: Report) -> Vocabulary:
             report.add(["labels", name], fault)
         for index, state in enumerate(states):
             if not 0 <= state < spec.states:
-                report.add(
-                    ["labels", name, index], f"there is no state {state}: states are 0 to {spec.states - 1}"
-                )
+                report.add(["labels", name, index], f"there is no state {state}: states are 0 to {spec.states - 1}")
     _read_transitions(spec, report)
     functions = {name: _proposition(name) for name in spec.labels}
     return Vocabulary((), (), functions, {}, {}, {})
@@ -97,9 +95,7 @@ def _read_transitions(spec: ExplicitSpec, report: Report) -> None:
         if fault := name_fault(transition.action):
             report.add([*path, "action"], fault)
         if transition.source >= spec.states:
-            report.add(
-                [*path, "from"], f"there is no state {transition.source}: states are 0 to {spec.states - 1}"
-            )
+            report.add([*path, "from"], f"there is no state {transition.source}: states are 0 to {spec.states - 1}")
         if (transition.source, transition.action) in seen:
             report.add(path, f"{transition.action} in state {transition.source} is given twice")
         seen.add((transition.source, transition.action))

@@ -231,7 +231,7 @@ def _parser() -> Lark:
 
 @lru_cache(maxsize=4_096)
 def parse_expression(text: str) -> Expression:
-    """The expression that `text` spells. Raises ExpressionError, naming the column of a syntax error."""
+    """The expression that `text` spells. Raises ExpressionError, naming the place of a syntax error."""
     if len(text) > MAX_TEXT:
         raise ExpressionError(f"the expression is longer than {MAX_TEXT} characters")
     try:
@@ -239,7 +239,8 @@ def parse_expression(text: str) -> Expression:
     except UnexpectedInput as error:
         if _at_end(error):
             raise ExpressionError("the expression ends too early") from None
-        start = error.pos_in_stream or 0
+        position: object = getattr(error, "pos_in_stream", None)
+        start = position if isinstance(position, int) else 0
         excerpt = repr(text[start : start + 20])
         raise ExpressionError(f"cannot read the expression at character {start + 1}: {excerpt}") from None
     except VisitError as error:

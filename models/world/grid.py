@@ -46,9 +46,7 @@ def _cells(spec: GridSpec, report: Report) -> dict[str, tuple[int, int]]:
     used: set[str] = set()
     for y, line in enumerate(spec.map):
         if len(line) != len(spec.map[0]):
-            report.add(
-                ["grid", "map", y], f"the row has {len(line)} characters, the first {len(spec.map[0])}"
-            )
+            report.add(["grid", "map", y], f"the row has {len(line)} characters, the first {len(spec.map[0])}")
         for x, character in enumerate(line):
             if character == BLOCKED:
                 continue
@@ -73,9 +71,7 @@ def _cells(spec: GridSpec, report: Report) -> dict[str, tuple[int, int]]:
 def _names(spec: GridSpec, report: Report) -> None:
     for character, name in spec.names.items():
         if len(character) != 1 or character in (BLOCKED, UNNAMED):
-            report.add(
-                ["grid", "names", character], f"a key is one character other than {BLOCKED} and {UNNAMED}"
-            )
+            report.add(["grid", "names", character], f"a key is one character other than {BLOCKED} and {UNNAMED}")
         if fault := name_fault(name):
             report.add(["grid", "names", character], fault)
 

@@ -54,7 +54,7 @@ _FILLERS = _DETERMINERS | {
     "color",
     "and",
 }
-_GENERIC = frozenset({"one", "ones", "thing", "things", "object", "objects", "item", "items"})
+_GENERIC = frozenset({"one", "thing", "object", "item"})
 _LONGEST = 20  # words
 
 
@@ -92,7 +92,8 @@ def ground(
         found = _called(spoken, symbols, vocabulary, compare)
         if found:
             return Grounding(phrase, _decided(found, vocabulary, pos))
-    return Grounding(phrase, tuple(_described(spoken, symbols, vocabulary)))
+    typed = [Candidate(s, _name_reason(s, vocabulary)) for s in symbols if _is_typed_value(spoken, s, vocabulary)]
+    return Grounding(phrase, tuple(typed or _described(spoken, symbols, vocabulary)))
 
 
 def _spoken(phrase: str) -> tuple[str, ...]:
@@ -134,9 +135,7 @@ def _name_reason(symbol: Symbol, vocabulary: Vocabulary) -> str:
     return f"the {kind} {symbol.name}" if symbol in vocabulary.values else f"a {kind} named {symbol.name}"
 
 
-def _decided(
-    found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech | None
-) -> tuple[Candidate, ...]:
+def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech | None) -> tuple[Candidate, ...]:
     values = [candidate for candidate in found if candidate.symbol in vocabulary.values]
     objects = [candidate for candidate in found if candidate.symbol not in vocabulary.values]
     if pos == "adjective" and values:
@@ -146,59 +145,54 @@ def _decided(
     return (*objects, *values)
 
 
-def _described(spoken: tuple[str, ...], symbols: Iterable[Symbol], vocabulary: Vocabulary) -> list[Candidate]:
-    content = tuple(word for word in spoken if word not in _FILLERS)
-    if not content:
-        return []
-    described = [_describe(content, symbol, vocabulary) for symbol in symbols]
-    found = [candidate for candidate in described if candidate is not None]
-    typed = [value for value in symbols if value in vocabulary.values and _typed_value(spoken, value)]
-    return found or [Candidate(value, _name_reason(value, vocabulary)) for value in typed]
-
-
-def _typed_value(spoken: tuple[str, ...], value: Symbol) -> bool:
-    """ "the color red", "red color"."""
-    kind, name = words(value.kind), words(value.name)
+def _is_typed_value(spoken: tuple[str, ...], symbol: Symbol, vocabulary: Vocabulary) -> bool:
+    """Whether the phrase is a value with its type: "the color red", "red color"."""
+    if symbol not in vocabulary.values:
+        return False
+    kind, name = words(symbol.kind), words(symbol.name)
     return spoken in ((*kind, *name), (*name, *kind))
 
 
-def _describe(content: tuple[str, ...], symbol: Symbol, vocabulary: Vocabulary) -> Candidate | None:
-    """The object as a candidate if every word of the phrase says something of it."""
-    if symbol in vocabulary.values:
-        return None
-    rest = [singular(word) for word in content]
-    nouns = {singular(w) for word in vocabulary.class_words.get(symbol.kind, ()) for w in words(word)[-1:]}
-    names = [[singular(w) for w in words(n)] for n in (symbol.name, *vocabulary.synonyms.get(symbol, ()))]
-    traits = {
-        attribute: [singular(w) for w in words(value.name)]
+def _described(spoken: tuple[str, ...], symbols: Iterable[Symbol], vocabulary: Vocabulary) -> list[Candidate]:
+    content = [singular(word) for word in spoken if word not in _FILLERS]
+    described = [_describe(content, s, vocabulary) for s in symbols if content and s not in vocabulary.values]
+    return [candidate for candidate in described if candidate is not None]
+
+
+def _describe(content: list[str], symbol: Symbol, vocabulary: Vocabulary) -> Candidate | None:
+    """The object as a candidate if every word of the phrase says something of it, and one of them more than "small".
+
+    What a word may say: an attribute's value, the class, part of a name that the phrase has the head noun (the last
+    word) of, or nothing much ("one").
+    """
+    values = {
+        attribute: value.name
         for attribute, value in vocabulary.static.get(symbol, {}).items()
-        if value in vocabulary.values
+        if value in vocabulary.values and _contains(content, _stems(value.name))
     }
-    used = {attribute for attribute, trait in traits.items() if _contains(rest, trait)}
-    unexplained = {word for word in rest if not any(word in traits[attribute] for attribute in used)}
-    generic = {singular(word) for word in _GENERIC}
-    partial = next(
-        (name for name in names if name and name[-1] in rest and unexplained - nouns - generic <= {*name}),
-        None,
-    )
-    if unexplained - nouns - generic and partial is None:
+    explained = {word for value in values.values() for word in _stems(value)}
+    rest = {word for word in content if word not in explained}
+    nouns = rest & {_stems(word)[-1] for word in vocabulary.class_words.get(symbol.kind, ()) if _stems(word)}
+    rest -= nouns | _GENERIC
+    names = [_stems(name) for name in (symbol.name, *vocabulary.synonyms.get(symbol, ()))]
+    named = any(name and name[-1] in content and rest <= set(name) for name in names)
+    if (rest and not named) or not (values or nouns or named):
         return None
-    if not used and not (unexplained & nouns) and partial is None:
-        return None
-    return Candidate(
-        symbol, _description(symbol, {a: vocabulary.static[symbol][a].name for a in traits if a in used})
-    )
+    return Candidate(symbol, _description(symbol, values, by_name=named and bool(rest or not (values or nouns))))
+
+
+def _stems(text: str) -> list[str]:
+    return [singular(word) for word in words(text)]
 
 
 def _contains(spoken: list[str], trait: list[str]) -> bool:
     return any(spoken[start : start + len(trait)] == trait for start in range(len(spoken) - len(trait) + 1))
 
 
-def _description(symbol: Symbol, traits: dict[str, str]) -> str:
+def _description(symbol: Symbol, values: dict[str, str], *, by_name: bool) -> str:
     kind = symbol.kind.replace("_", " ")
-    if not traits:
-        return f"a {kind} named {symbol.name}"
-    said = listing(
-        (f"{attribute.replace('_', ' ')} is {value}" for attribute, value in traits.items()), "and"
-    )
-    return f"a {kind} whose {said}"
+    named = f" named {symbol.name}" if by_name else ""
+    if not values:
+        return f"a {kind}{named}"
+    said = listing((f"{attribute.replace('_', ' ')} is {value}" for attribute, value in values.items()), "and")
+    return f"a {kind}{named} whose {said}"

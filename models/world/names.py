@@ -21,10 +21,7 @@ def words(text: str) -> tuple[str, ...]:
     `"H&M (2nd floor)"` -> `("h", "m", "2nd", "floor")`; `"the_Child's toy"` -> `("the", "childs", "toy")`.
     """
     plain = (
-        unicodedata.normalize("NFKC", text)
-        .casefold()
-        .replace("'", "")
-        .replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
+        unicodedata.normalize("NFKC", text).casefold().replace("'", "").replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
     )
     return tuple(_SPELLINGS.get(word, word) for word in _WORD.findall(plain))
 
@@ -67,6 +64,4 @@ def application(name: str, arguments: Iterable[str]) -> str:
 def listing(items: Iterable[str], word: str = "or") -> str:
     """`a`, `a or b`, `a, b or c`."""
     names = list(items)
-    return (
-        names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"
-    )
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}" if names else "nothing"

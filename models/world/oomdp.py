@@ -30,9 +30,7 @@ class OomdpWorld:
         self.name = model.name
         ranges = {id(v.values): v.values for v in model.variables}  # few tuples, shared by many variables
         names = {key: tuple(v.name if v else NONE for v in values) for key, values in ranges.items()}
-        self.variables = tuple(
-            Variable(v.owner.name, v.attribute, names[id(v.values)]) for v in model.variables
-        )
+        self.variables = tuple(Variable(v.owner.name, v.attribute, names[id(v.values)]) for v in model.variables)
         self._vocabulary = vocabulary
         self._radix = tuple(len(variable.values) for variable in self.variables)
         self.size = prod(self._radix)
@@ -61,8 +59,7 @@ class OomdpWorld:
     def is_valid(self, index: int) -> bool:
         """Whether one state satisfies the constraints, in a world of any size."""
         digits = {
-            v: np.array([index // s % r])
-            for v, (s, r) in enumerate(zip(self._strides, self._radix, strict=True))
+            v: np.array([index // s % r]) for v, (s, r) in enumerate(zip(self._strides, self._radix, strict=True))
         }
         batch = Batch(self._radix, self._strides, np.zeros(1, dtype=np.int64), digits)
         return bool(np.all(evaluate(self._valid, batch)))
@@ -77,9 +74,7 @@ class OomdpWorld:
         result = np.empty((len(atoms), count), dtype=np.bool_)
         for row, atom in enumerate(atoms):
             symbols = bind_names(atom, self._vocabulary)
-            value = self._evaluator.call(
-                atom.function, [self._evaluator.symbol(symbol) for symbol in symbols]
-            )
+            value = self._evaluator.call(atom.function, [self._evaluator.symbol(symbol) for symbol in symbols])
             result[row] = self._truth(value, states)
         return result
 
@@ -97,9 +92,7 @@ class OomdpWorld:
 
     def _require_indices(self) -> None:
         if self.size > MAX_STATES:
-            raise WorldError(
-                f"{self.name} is too large to compute with: {self.size} states, at most {MAX_STATES}"
-            )
+            raise WorldError(f"{self.name} is too large to compute with: {self.size} states, at most {MAX_STATES}")
 
     def _batch(self, states: NDArray[np.int64]) -> Batch:
         return Batch(self._radix, self._strides, states)

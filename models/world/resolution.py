@@ -72,9 +72,7 @@ def _compound(atom: Atom, vocabulary: Vocabulary) -> Atom:
     if len(found) == 1:
         return found[0]
     if found:
-        ways = listing(
-            application(a.function, (t.text for t in a.arguments if isinstance(t, Name))) for a in found
-        )
+        ways = listing(application(a.function, (t.text for t in a.arguments if isinstance(t, Name))) for a in found)
         raise UnknownPropositionError(f"{atom.function} can be read as {ways}: write the one that is meant")
     return atom
 

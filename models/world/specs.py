@@ -36,29 +36,21 @@ class ClassSpec(_Spec):
         default_factory=dict,
         description="Attributes that actions change: name to kinds. Each is a state variable.",
     )
-    words: list[str] = Field(
-        default_factory=list, description="Nouns for any object of the class, besides its name."
-    )
+    words: list[str] = Field(default_factory=list, description="Nouns for any object of the class, besides its name.")
 
 
 class DefinitionSpec(_Spec):
     """A named expression for use in other expressions."""
 
-    arguments: list[str] = Field(
-        default_factory=list, description="`name: kinds` each, for example `x: box | toy`."
-    )
+    arguments: list[str] = Field(default_factory=list, description="`name: kinds` each, for example `x: box | toy`.")
     expression: str = Field(alias="is", description="The value.")
 
 
 class FunctionSpec(DefinitionSpec):
     """A propositional function: a Boolean expression that formulas may use."""
 
-    says: str | None = Field(
-        None, description="English reading with the arguments in braces: `{x} is at {c}`."
-    )
-    denies: str | None = Field(
-        None, description="English reading of the negation; derived from `says` by default."
-    )
+    says: str | None = Field(None, description="English reading with the arguments in braces: `{x} is at {c}`.")
+    denies: str | None = Field(None, description="English reading of the negation; derived from `says` by default.")
     display: list[str] = Field(default_factory=list, description="Compound names of its atoms: `{x}_at_{c}`.")
 
 
@@ -77,21 +69,15 @@ class ActionSpec(_Spec):
 
     arguments: list[str] = Field(default_factory=list, description="`name: kinds` each.")
     when: str = Field("true", description="Boolean expression: where the action is possible.")
-    outcomes: list[OutcomeSpec] = Field(
-        min_length=1, description="Their probabilities sum to 1 where it is possible."
-    )
+    outcomes: list[OutcomeSpec] = Field(min_length=1, description="Their probabilities sum to 1 where it is possible.")
 
 
 class DomainSpec(_Spec):
     """A kind of world: classes, propositional functions, actions."""
 
     name: str = Field(description="Name of the domain.")
-    parameters: dict[str, ParameterSpec] = Field(
-        default_factory=dict, description="Numbers environments may set."
-    )
-    attributes: dict[str, list[str]] = Field(
-        default_factory=dict, description="Attribute types and their values."
-    )
+    parameters: dict[str, ParameterSpec] = Field(default_factory=dict, description="Numbers environments may set.")
+    attributes: dict[str, list[str]] = Field(default_factory=dict, description="Attribute types and their values.")
     classes: dict[str, ClassSpec] = Field(description="Classes of objects.")
     constants: dict[str, str] = Field(
         default_factory=dict, description="Objects that every environment has: name to class."
@@ -99,9 +85,7 @@ class DomainSpec(_Spec):
     define: dict[str, DefinitionSpec] = Field(default_factory=dict, description="Named expressions.")
     functions: dict[str, FunctionSpec] = Field(default_factory=dict, description="Propositional functions.")
     actions: dict[str, ActionSpec] = Field(default_factory=dict, description="Actions.")
-    constraints: list[str] = Field(
-        default_factory=list, description="Boolean expressions true in every legal state."
-    )
+    constraints: list[str] = Field(default_factory=list, description="Boolean expressions true in every legal state.")
 
 
 class ObjectSpec(_Spec):
@@ -120,12 +104,8 @@ class GridSpec(_Spec):
         min_length=1,
         description="Rows from the north: `#` no cell, `.` a cell with a generated name, others as in `names`.",
     )
-    names: dict[str, str] = Field(
-        default_factory=dict, description="Character of the map to the cell's name."
-    )
-    walls: list[list[str]] = Field(
-        default_factory=list, description="Pairs of neighbouring cells with a wall between."
-    )
+    names: dict[str, str] = Field(default_factory=dict, description="Character of the map to the cell's name.")
+    walls: list[list[str]] = Field(default_factory=list, description="Pairs of neighbouring cells with a wall between.")
 
 
 class OomdpSpec(_Spec):
@@ -157,9 +137,9 @@ class TransitionSpec(_Spec):
 
     source: int = Field(alias="from", ge=0, description="State in which the action is possible.")
     action: str = Field(min_length=1, description="Name of the action.")
-    to: list[
-        Annotated[list[Annotated[float, Field(allow_inf_nan=False)]], Field(min_length=2, max_length=2)]
-    ] = Field(min_length=1, description="Pairs of successor state and probability.")
+    to: list[Annotated[list[Annotated[float, Field(allow_inf_nan=False)]], Field(min_length=2, max_length=2)]] = Field(
+        min_length=1, description="Pairs of successor state and probability."
+    )
 
 
 class ExplicitSpec(_Spec):
@@ -172,9 +152,7 @@ class ExplicitSpec(_Spec):
     labels: dict[str, list[int]] = Field(
         default_factory=dict, description="Nullary proposition to the states in which it holds."
     )
-    transitions: list[TransitionSpec] = Field(
-        default_factory=list, description="Transitions; the rest do not exist."
-    )
+    transitions: list[TransitionSpec] = Field(default_factory=list, description="Transitions; the rest do not exist.")
 
 
 EnvironmentSpec = Annotated[OomdpSpec | ExplicitSpec, Field(discriminator="kind")]

@@ -19,9 +19,7 @@ def encode_state(state: State, variables: tuple[Variable, ...], strides: tuple[i
     index, places = base, list[Place]()
     for name, attributes in state.items():
         if name not in by_object:
-            places.append(
-                Place(pointer((name,)), f"there is no object {name} with a state{hint(name, by_object)}")
-            )
+            places.append(Place(pointer((name,)), f"there is no object {name} with a state{hint(name, by_object)}"))
             continue
         for attribute, value in attributes.items():
             path = pointer((name, attribute))
@@ -41,9 +39,7 @@ def encode_state(state: State, variables: tuple[Variable, ...], strides: tuple[i
     return index
 
 
-def decode_state(
-    index: int, variables: tuple[Variable, ...], strides: tuple[int, ...]
-) -> dict[str, dict[str, str]]:
+def decode_state(index: int, variables: tuple[Variable, ...], strides: tuple[int, ...]) -> dict[str, dict[str, str]]:
     """object -> attribute -> value of an index."""
     state: dict[str, dict[str, str]] = {}
     for variable, stride in zip(variables, strides, strict=True):

@@ -24,9 +24,7 @@ class Vocabulary:
     values: tuple[Symbol, ...]
     functions: Mapping[str, Function]
     synonyms: Mapping[Symbol, tuple[str, ...]]
-    static: Mapping[
-        Symbol, Mapping[str, Symbol]
-    ]  # an object's unchanging attributes; absent where it has none
+    static: Mapping[Symbol, Mapping[str, Symbol]]  # an object's unchanging attributes; absent where it has none
     class_words: Mapping[str, tuple[str, ...]]
     _by_name: Mapping[str, tuple[Symbol, ...]] = field(init=False, repr=False)
 

@@ -20,7 +20,7 @@ router = APIRouter(prefix="/environments", tags=["environments"])
 def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) -> EnvironmentList:
     """List the stored environments in order of name."""
     with services.store.read() as transaction:
-        found = transaction.environments.list(after=cursor, limit=limit + 1)
+        found = transaction.environments.page(after=cursor, limit=limit + 1)
     return EnvironmentList(
         items=[EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in found[:limit]],
         next=found[limit - 1].name if len(found) > limit else None,

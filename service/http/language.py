@@ -25,9 +25,7 @@ from service.pipeline import ground, translate
 router = APIRouter(tags=["language"])
 
 
-@router.post(
-    "/translate", operation_id="translate", responses=refusals(*BODY, "unknown-environment", "text-too-long")
-)
+@router.post("/translate", operation_id="translate", responses=refusals(*BODY, "unknown-environment", "text-too-long"))
 def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
     return translated_out(
@@ -69,7 +67,10 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
     operation_id="learn",
     status_code=201,
     responses={
-        200: {"model": TemplateOut, "description": "Known already; `revision` tells whether anything was added."},
+        200: {
+            "model": TemplateOut,
+            "description": "Known already; `revision` tells whether anything was added.",
+        },
         **refusals(
             *BODY,
             "unknown-environment",

@@ -74,9 +74,7 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
     policy = None
     if planned.policy_id is not None:
         url = f"/policies/{planned.policy_id}"
-        policy = PolicySummary(
-            id=planned.policy_id, url=url, memories=answer.automaton_states, states=answer.states
-        )
+        policy = PolicySummary(id=planned.policy_id, url=url, memories=answer.automaton_states, states=answer.states)
     return PlanResponse(
         id=planned.policy_id,
         outcome=answer.outcome,

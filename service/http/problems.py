@@ -92,9 +92,7 @@ class Problem(BaseModel):
 def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
     """The response for a problem; `members` are further members of `Problem`."""
     status = members.pop("status", STATUS[slug])
-    problem = Problem(
-        type=TYPE_PREFIX + slug, title=slug.replace("-", " "), status=status, detail=detail, **members
-    )
+    problem = Problem(type=TYPE_PREFIX + slug, title=slug.replace("-", " "), status=status, detail=detail, **members)
     headers = {"Retry-After": "1"} if status == 503 else None
     content = problem.model_dump(exclude_none=True)
     return JSONResponse(content, status_code=status, headers=headers, media_type=MEDIA_TYPE)

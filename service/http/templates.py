@@ -15,7 +15,7 @@ router = APIRouter(prefix="/templates", tags=["templates"])
 def get_templates(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) -> TemplateList:
     """List the learned templates in order of task."""
     with services.store.read() as transaction:
-        found = transaction.templates.list(after=cursor, limit=limit + 1)
+        found = transaction.templates.page(after=cursor, limit=limit + 1)
     return TemplateList(
         items=[template_out(stored) for stored in found[:limit]],
         next=found[limit - 1].task if len(found) > limit else None,

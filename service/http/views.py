@@ -58,7 +58,9 @@ def template_out(stored: StoredTemplate) -> TemplateOut:
         ],
         template=stored.template,
         lifted=stored.lifted,
-        pairs=[PairOut(contextual_query=p.contextual_query, ltl=p.ltl, environment=p.environment) for p in stored.pairs],
+        pairs=[
+            PairOut(contextual_query=p.contextual_query, ltl=p.ltl, environment=p.environment) for p in stored.pairs
+        ],
         examples=[example.text for example in stored.examples],
         revision=stored.revision,
         warnings=list(stored.warnings),
@@ -72,10 +74,10 @@ def translated_out(translated: Translated) -> TranslateResponse:
     return TranslateResponse(
         text=translated.text,
         outcome=translated.outcome,
-        contextual_query=best and best.contextual_query,
-        ltl=best and best.ltl,
-        confidence=best and best.confidence,
-        explanation=best and best.explanation,
+        contextual_query=best.contextual_query if best else None,
+        ltl=best.ltl if best else None,
+        confidence=best.confidence if best else None,
+        explanation=best.explanation if best else None,
         bindings=best.bindings if best else [],
         candidates=candidates,
         question=_question(translated),

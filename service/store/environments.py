@@ -35,7 +35,7 @@ class EnvironmentRepository:
             raise UnknownEnvironmentError(f'no environment is called "{name[:100]}"')
         return StoredEnvironment(row.name, row.kind, row.data, row.revision)
 
-    def list(self, *, after: str = "", limit: int) -> list[StoredEnvironment]:
+    def page(self, *, after: str = "", limit: int) -> list[StoredEnvironment]:
         """Up to `limit` environments in order of name, from the first whose name is greater than `after`."""
         rows = self._connection.execute(
             select(environments).where(environments.c.name > after).order_by(environments.c.name).limit(limit)

@@ -37,7 +37,5 @@ class PolicyRepository:
         """Store the policy if it is not stored yet."""
         if self._connection.scalar(select(policies.c.id).where(policies.c.id == policy.id)) is None:
             self._connection.execute(
-                insert(policies).values(
-                    id=policy.id, environment=policy.environment, ltl=policy.ltl, data=policy.data
-                )
+                insert(policies).values(id=policy.id, environment=policy.environment, ltl=policy.ltl, data=policy.data)
             )

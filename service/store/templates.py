@@ -65,7 +65,7 @@ class TemplateRepository:
             raise UnknownTemplateError(f'no template is stored for a task "{task[:100]}"; POST /learn teaches one')
         return found
 
-    def list(self, *, after: str = "", limit: int) -> list[StoredTemplate]:
+    def page(self, *, after: str = "", limit: int) -> list[StoredTemplate]:
         """Up to `limit` templates in order of task, from the first whose task is greater than `after`."""
         rows = self._connection.execute(
             select(templates).where(templates.c.task > after).order_by(templates.c.task).limit(limit)

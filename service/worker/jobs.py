@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from models.logic import Formula, equivalent, parse
 from models.queries import Template, review
@@ -14,6 +14,9 @@ from models.world import Environment, State, World, compile_world, load_environm
 
 if TYPE_CHECKING:  # planning loads torch, which the process for formula checks does without
     from models.planning import Trajectory
+
+Device = Literal["auto", "cpu", "cuda"]
+Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 
 NamedState = dict[str, dict[str, str]]
 """object -> attribute -> value."""
@@ -31,14 +34,14 @@ class PlanJob:
     state: State | None
     epsilon: float
     max_states: int
-    device: str
+    device: Device
 
 
 @dataclass(frozen=True, slots=True)
 class PlanAnswer:
     """What planning found; `policy` are the bytes of `models.planning.Policy.to_bytes`, None when there is none."""
 
-    outcome: str
+    outcome: Outcome
     lower: float
     upper: float
     expected_steps: float | None
@@ -90,7 +93,9 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         initial=world.decode(initial),
         initial_memory=found.initial_memory,
         trajectory=_steps(world, found.trajectory),
-        complete=found.trajectory is not None and found.trajectory.complete and len(found.trajectory.steps) <= MAX_STEPS,
+        complete=found.trajectory is not None
+        and found.trajectory.complete
+        and len(found.trajectory.steps) <= MAX_STEPS,
         policy=None if found.policy is None else to_bytes(found.policy),
         states=found.sizes.states,
         product_states=found.sizes.product_states,

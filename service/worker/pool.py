@@ -41,7 +41,7 @@ class Workers:
         """Kill the processes and whatever they do."""
         for pool in (self._plan_pool, self._logic_pool):
             if pool is not None:
-                pool.stop()
+                pool.stop()  # type: ignore[no-untyped-call]  # pebble annotates only some of its methods
                 pool.join()
 
     async def plan(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:

@@ -158,6 +158,7 @@ def solve(dynamics: Dynamics, labels: Labels, initial: Any, f: LTL) -> Answer:
         if node not in decided
     }
     steps = _iterate(kept, dict.fromkeys(decided, 0.0), cost=1.0, sign=-1.0)
+    value = {node: min(1.0, max(0.0, v)) for node, v in value.items()}
     return Answer(value[start], steps[start], {n: (value[n], steps[n]) for n in choices})
 
 

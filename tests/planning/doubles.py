@@ -68,7 +68,7 @@ class ArrayWorld:
 def random_world(seed: int, *, states: int | None = None, atoms: str = "ab") -> ArrayWorld:
     """A random MDP with self-loops, traps, end components, unreachable parts and states without actions."""
     pick = random.Random(seed)
-    size = states or pick.randint(1, 20)
+    size = states or pick.randint(1, 24)
     transitions: dict[int, dict[str, dict[int, float]]] = {}
     for state in range(size):
         actions = pick.sample(["p", "q", "r", "s"], pick.choice([0, 1, 1, 2, 2, 3, 4]))
@@ -80,5 +80,5 @@ def random_world(seed: int, *, states: int | None = None, atoms: str = "ab") -> 
             weights = [pick.choice([1, 1, 2, 5, 0.25]) for _ in set(targets)]
             total = sum(weights)
             transitions[state][action] = {t: w / total for t, w in zip(dict.fromkeys(targets), weights, strict=True)}
-    holds = {name: frozenset(s for s in range(size) if pick.random() < 0.25) for name in atoms}
+    holds = {name: frozenset(s for s in range(size) if pick.random() < 0.2) for name in atoms}
     return ArrayWorld(size, transitions, holds, initial=pick.randrange(size))

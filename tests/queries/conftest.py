@@ -28,7 +28,7 @@ DOMAIN = {
 
 @pytest.fixture(scope="session")
 def store() -> Environment:
-    """Places p, q and a "long table"; things ball, orange and bag (called "bag"); bins crate and sack (called "bag")."""
+    """Places p, q, a "long table"; things ball, orange, sachet (called "bag"); bins crate and sack (called "bag")."""
     color = {"ball": "red", "orange": "orange", "sachet": "blue"}
     return load_environment(
         {

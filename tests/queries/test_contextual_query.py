@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from models.queries import MAX_ARGUMENTS, MAX_QUERY_TEXT, ContextualQuery, QuerySyntaxError, parse_query
 
 NAMES = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,20}", fullmatch=True)
-PHRASES = st.text(st.characters(exclude_categories=["C", "Z"]) | st.just(" "), min_size=1, max_size=30).filter(str.strip)
+PHRASES = st.text(st.characters(exclude_categories=["C", "Z"]) | st.just(" "), min_size=1, max_size=30).filter(
+    str.strip
+)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +70,13 @@ def test_the_caret_of_a_long_line_stays_in_view() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["a" * (MAX_QUERY_TEXT + 1), "f(" + ",".join("a" for _ in range(MAX_ARGUMENTS + 1)) + ")", "f(\x00)", 'f("")']
+    "text",
+    [
+        "a" * (MAX_QUERY_TEXT + 1),
+        "f(" + ",".join("a" for _ in range(MAX_ARGUMENTS + 1)) + ")",
+        "f(\x00)",
+        'f("")',
+    ],
 )
 def test_limits_and_unprintable_phrases_are_refused(text: str) -> None:
     with pytest.raises(QuerySyntaxError):

@@ -100,7 +100,10 @@ def test_a_second_example_tells_a_repeated_parameter_from_a_coincidence(store: E
 
 
 def test_examples_that_leave_two_mappings_are_refused(store: Environment) -> None:
-    pairs = [("tour(p, p)", "G at(robot, p) | F at(robot, p)"), ("tour(q, q)", "G at(robot, q) | F at(robot, q)")]
+    pairs = [
+        ("tour(p, p)", "G at(robot, p) | F at(robot, p)"),
+        ("tour(q, q)", "G at(robot, q) | F at(robot, q)"),
+    ]
     with pytest.raises(AmbiguousParameterMappingError):
         template(store, *pairs)
 
@@ -117,8 +120,16 @@ def test_examples_that_leave_two_mappings_are_refused(store: Environment) -> Non
         ([("go(p)", "F at(p, robot)")], TypeMismatchError, "/0/formula"),
         ([("go(p)", "F at(robot, p)"), ("go(q)", "G at(robot, q)")], InconsistentExamplesError, "/1/formula"),
         ([("go(p)", "F at(robot, p)"), ("run(q)", "F at(robot, q)")], InconsistentExamplesError, "/1/query"),
-        ([("go(p)", "F at(robot, p)"), ("go(p, q)", "F at(robot, p)")], InconsistentExamplesError, "/1/query"),
-        ([("go(p)", "F at(robot, p)"), ("go(q)", "F at(robot, p)")], UnusedParameterError, "/1/query/arguments/0"),
+        (
+            [("go(p)", "F at(robot, p)"), ("go(p, q)", "F at(robot, p)")],
+            InconsistentExamplesError,
+            "/1/query",
+        ),
+        (
+            [("go(p)", "F at(robot, p)"), ("go(q)", "F at(robot, p)")],
+            UnusedParameterError,
+            "/1/query/arguments/0",
+        ),
         ([("go(p)", "F at(robot, p)"), ("go(q)", "F at(robot, oz)")], UnknownObjectError, "/1/formula"),
     ],
 )

@@ -13,7 +13,10 @@ from models.world import Environment, resolve
 @pytest.mark.parametrize(
     ("ltl", "expected"),
     [
-        ("F (by(ball, crate) & F (by(ball, crate) & lies(crate, q)))", "F (by(t, b) & F (by(t, b) & lies(b, p)))"),
+        (
+            "F (by(ball, crate) & F (by(ball, crate) & lies(crate, q)))",
+            "F (by(t, b) & F (by(t, b) & lies(b, p)))",
+        ),
         ("F (at(robot, p) & F at(robot, q))", "F (at(r, p1) & F at(r, p2))"),
         ("G colored(orange, orange)", "G colored(t, c)"),
         ("true U false", "true U false"),

@@ -52,7 +52,11 @@ def test_simplifying_keeps_the_meaning_and_never_grows(formula: Formula) -> None
     ("query", "ltl", "warnings"),
     [
         ("go(p)", "F at(robot, p)", []),
-        ("put(ball, q)", "F (lies(ball, q) & F (lies(ball, q) & colored(ball, red)))", ["equivalent to", "red is no argument"]),
+        (
+            "put(ball, q)",
+            "F (lies(ball, q) & F (lies(ball, q) & colored(ball, red)))",
+            ["equivalent to", "red is no argument"],
+        ),
         ("never(p)", "F (at(robot, p) & !at(robot, p))", ["can never hold"]),
         ("always(p)", "F at(robot, p) | G !at(robot, p)", ["always holds"]),
         ("bring(ball)", "F lies(ball, q)", ["q is no argument of bring"]),

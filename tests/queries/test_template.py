@@ -16,7 +16,13 @@ from models.queries import (
     learn,
     parse_query,
 )
-from models.world import Environment, TypeMismatchError, UnknownObjectError, UnknownPropositionError, load_environment
+from models.world import (
+    Environment,
+    TypeMismatchError,
+    UnknownObjectError,
+    UnknownPropositionError,
+    load_environment,
+)
 
 
 def taught(environment: Environment, query: str, ltl: str) -> Template:
@@ -26,8 +32,16 @@ def taught(environment: Environment, query: str, ltl: str) -> Template:
 @pytest.mark.parametrize(
     ("learned", "query", "expected"),
     [
-        (("tour(p, q)", "F (at(robot, p) & F at(robot, q))"), "tour(q, p)", "F (at(robot, q) & F at(robot, p))"),
-        (("tour(p, q)", "F (at(robot, p) & F at(robot, q))"), "tour(q, q)", "F (at(robot, q) & F at(robot, q))"),
+        (
+            ("tour(p, q)", "F (at(robot, p) & F at(robot, q))"),
+            "tour(q, p)",
+            "F (at(robot, q) & F at(robot, p))",
+        ),
+        (
+            ("tour(p, q)", "F (at(robot, p) & F at(robot, q))"),
+            "tour(q, q)",
+            "F (at(robot, q) & F at(robot, q))",
+        ),
         (("go(p)", "F at(robot, p)"), "go(the long table)", "F at(robot, table)"),
         (("find(ball, red)", "F colored(ball, red)"), "find(orange, orange)", "F colored(orange, orange)"),
         (("store(ball, crate)", "F by(ball, crate)"), "store(bag, bag)", "F by(sachet, sack)"),

@@ -36,7 +36,7 @@ class Toys:
 
     def moves(self, state):
         """(action, {successor: probability}) for each action possible in a legal state."""
-        robot, box, *toys = state
+        robot, box = state[:2]
         hand_free = "held" not in state[1:]
         for direction in STEP:
             chances = {}

@@ -22,7 +22,7 @@ GRIDS = [
 def build(columns, rows, toys, slip, walls):
     """The compiled world and the simulator of the same place, and the cells' names."""
     plain = toys_spec(columns=columns, rows=rows, toys=toys, slip=slip)
-    names = [name for name in plain["grid"]["names"].values()]
+    names = list(plain["grid"]["names"].values())
     simulator = Toys(columns, rows, toys, slip, walls)
     cell_names = dict(zip(simulator.cells, names, strict=True))
     walled = toys_spec(

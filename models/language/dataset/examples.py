@@ -45,11 +45,15 @@ class Dataset:
     unseen: tuple[Example, ...]
 
 
-@cache
 def generate(domain: Domain | str) -> Dataset:
     """S and U of a domain (`"manipulation"` or `"navigation"`), the same on every call."""
-    corpus = read_corpus(Domain(domain))
-    return Dataset(corpus.domain, tuple(_examples(corpus, Part.SEEN)), tuple(_examples(corpus, Part.UNSEEN)))
+    return _generate(Domain(domain))
+
+
+@cache
+def _generate(domain: Domain) -> Dataset:
+    corpus = read_corpus(domain)
+    return Dataset(domain, tuple(_examples(corpus, Part.SEEN)), tuple(_examples(corpus, Part.UNSEEN)))
 
 
 def by_task(examples: Iterable[Example]) -> dict[str, list[Example]]:

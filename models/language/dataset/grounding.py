@@ -18,8 +18,8 @@ _WORLD = {Domain.MANIPULATION: "toys", Domain.NAVIGATION: "navigation"}
 """The built-in domain of `models.world` that each dataset speaks about."""
 _ATTRIBUTES = frozenset({"color"})
 """Slots whose words are attribute values; those of all others are objects."""
-_CLASSES = {"object": "toy", "container": "box", "location": "cell"}
-"""The class of the objects of a slot; the landmarks of navigation are cells too."""
+_CLASSES = {"object": "toy", "container": "box", "location": "cell", "first": "place", "second": "place", "third": "place"}
+"""The class of the objects of a slot."""
 
 
 def grounding_environment(domain: Domain | str, part: Part | str) -> dict[str, Any]:
@@ -53,4 +53,4 @@ def _objects(vocabulary: Mapping[str, tuple[Word, ...]]) -> Iterator[tuple[str, 
         if slot not in _ATTRIBUTES:
             for word in entries:
                 named = word.symbol.replace("_", " ") == word.phrase
-                yield word.symbol, {"class": _CLASSES.get(slot, "cell"), "synonyms": [] if named else [word.phrase]}
+                yield word.symbol, {"class": _CLASSES[slot], "synonyms": [] if named else [word.phrase]}

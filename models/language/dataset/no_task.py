@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from models.language.dataset.corpus import Domain, Part, load_yaml, read_corpus, slots
 from models.language.dataset.split import split
+from models.language.tokens import words
 
 HELD_BACK = 5
 """Every fifth sentence, verb and frame is kept from training, to measure abstention on what was never read."""
@@ -39,7 +40,9 @@ def no_task(*, seed: int = 0, fills: int = 8) -> NoTask:
     backwards; letters without sense. Only words of the seen vocabularies fill the frames.
     """
     data = load_yaml((files("models.language.dataset") / "no_task.yaml").read_text(encoding="utf-8"), _NoTaskData)
-    return NoTask(_texts(data, False, seed, fills), _texts(data, True, seed, fills))
+    training = _texts(data, False, seed, fills)
+    read = {words(text) for text in training}  # two commands may be the same when cut short
+    return NoTask(training, tuple(text for text in _texts(data, True, seed, fills) if words(text) not in read))
 
 
 def _texts(data: _NoTaskData, held_out: bool, seed: int, fills: int) -> tuple[str, ...]:

@@ -1,0 +1,321 @@
+"""Every kind of wrong data is refused with the exact place."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from models.world import WorldError, builtin_environments, load_environment, toys_spec
+from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_OBJECTS
+from tests.world.worlds import REMOVE, SWITCHES, TINY, changed
+
+D = "domain_spec/"
+LIT = f"{D}functions/lit/"
+FLIP = f"{D}actions/flip/"
+
+
+def faults(data):
+    """pointer -> detail of each fault of refused data."""
+    with pytest.raises(WorldError) as caught:
+        load_environment(data)
+    error = caught.value
+    assert error.slug == "invalid-environment"
+    assert error.places
+    assert error.places[0].detail in error.detail
+    assert error.places[0].pointer in error.detail
+    return {place.pointer: place.detail for place in error.places}
+
+
+SHAPES = [
+    ("name", REMOVE, "/name", "field required"),
+    ("name", 7, "/name", "valid string"),
+    ("kind", REMOVE, "", "kind"),
+    ("kind", "pomdp", "", "pomdp"),
+    ("colour", "red", "/colour", "extra"),
+    ("objects/one/class", REMOVE, "/objects/one/class", "required"),
+    ("objects/one/colour", "red", "/objects/one/colour", "extra"),
+    (f"{D}actions/flip/outcomes", [], "/domain_spec/actions/flip/outcomes", "at least 1"),
+    (f"{D}actions/flip/outcomes/0/probability", 0.5, "/domain_spec/actions/flip/outcomes/0/probability", "string"),
+    (f"{D}parameters/p", 0.5, "/domain_spec/parameters/p", "dictionary"),
+    (f"{D}parameters/p/default", "0.5", "/domain_spec/parameters/p/default", "number"),
+    (f"{D}parameters/p/default", float("nan"), "/domain_spec/parameters/p/default", "finite"),
+    (f"{D}classes", REMOVE, "/domain_spec/classes", "required"),
+    ("state/robot", "none", "/state/robot", "dictionary"),
+    ("domain", "toys", "", "exactly one of domain and domain_spec"),
+    ("domain_spec", REMOVE, "", "exactly one of domain and domain_spec"),
+]
+
+DOMAINS = [
+    (f"{D}name", "", "name", "empty"),
+    (f"{D}parameters/p/default", 2.0, "parameters/p/default", "outside"),
+    (f"{D}parameters/q q", {"default": 1.0}, "parameters/q q", "not a name"),
+    (f"{D}attributes/level/2", "low", "attributes/level/2", "listed twice"),
+    (f"{D}attributes/level/2", "none", "attributes/level/2", "none"),
+    (f"{D}attributes/level/2", " x", "attributes/level/2", "space"),
+    (f"{D}attributes/level/2", "x" * (MAX_NAME + 1), "attributes/level/2", "at most"),
+    (f"{D}attributes/level/2", 'a"b', "attributes/level/2", "quotes"),
+    (f"{D}attributes/lamp", ["x"], "attributes/lamp", "class too"),
+    (f"{D}classes/true", {}, "classes/true", "not a name"),
+    (f"{D}classes/lamp/static/colour", "colour", "classes/lamp/static/colour", "did you mean color"),
+    (f"{D}classes/lamp/static/level", "level", "classes/lamp/state/level", "static attribute too"),
+    (f"{D}classes/lamp/static/a-b", "level", "classes/lamp/static/a-b", "not a name"),
+    (f"{D}constants/robot", "robo", "constants/robot", "did you mean robot"),
+    (f"{D}constants/none", "robot", "constants/none", "none"),
+    (f"{D}define/lit", {"is": "true"}, "functions/lit", "definition too"),
+    (f"{LIT}arguments/0", "x", "functions/lit/arguments/0", "name: kinds"),
+    (f"{LIT}arguments/0", "x: lamb", "functions/lit/arguments/0", "did you mean lamp"),
+    (f"{LIT}arguments/1", "x: lamp", "functions/lit/arguments/1", "two arguments"),
+    (f"{LIT}arguments", ["x: lamp"] * (MAX_ARGUMENTS + 1), "functions/lit/arguments", "at most"),
+    (f"{LIT}is", "bright(x", "functions/lit/is", "too early"),
+    (f"{LIT}is", "x.level", "functions/lit/is", "must be true or false"),
+    (f"{LIT}is", "1 + 1", "functions/lit/is", "must be true or false, not number"),
+    (f"{LIT}is", "x.levl == high", "functions/lit/is", "did you mean level"),
+    (f"{LIT}is", "x.level == red", "functions/lit/is", "never equal"),
+    (f"{LIT}is", "x.level == hihg", "functions/lit/is", "nothing is called hihg"),
+    (f"{LIT}is", "brigt(x)", "functions/lit/is", "did you mean bright"),
+    (f"{LIT}is", "bright(x, x)", "functions/lit/is", "1 arguments, not 2"),
+    (f"{LIT}is", "bright(robot)", "functions/lit/is", "must be lamp, but may be robot"),
+    (f"{LIT}is", "x and true", "functions/lit/is", "must be true or false, not lamp"),
+    (f"{LIT}is", "x < x", "functions/lit/is", "must be number"),
+    (f"{LIT}is", "x is robot", "functions/lit/is", "never robot"),
+    (f"{LIT}is", "x is lampe", "functions/lit/is", "did you mean lamp"),
+    (f"{LIT}is", "any(y: lampe; true)", "functions/lit/is", "did you mean lamp"),
+    (f"{LIT}is", "p.level == high", "functions/lit/is", "object or value is needed"),
+    (f"{LIT}is", "(x if true else 1) == x", "functions/lit/is", "one branch"),
+    (f"{LIT}is", "x.level == none", "functions/lit/is", "never equal"),
+    (f"{LIT}says", "{y} is on", "functions/lit/says", "no argument"),
+    (f"{LIT}denies", "{y} is off", "functions/lit/denies", "no argument"),
+    (f"{LIT}display/0", "on", "functions/lit/display/0", "exactly once"),
+    (f"{D}functions/alike/display", ["{x}{y}"], "functions/alike/display/0", "a word between"),
+    (f"{D}define/bright/is", "lit(x)", "define/bright/is", "may not call themselves: bright -> lit -> bright"),
+    (f"{FLIP}when", "robot.by", "actions/flip/when", "must be true or false"),
+    (f"{FLIP}outcomes/0/probability", "true", "actions/flip/outcomes/0/probability", "must be number"),
+    (f"{FLIP}outcomes/0/set", {"robot": "none"}, "actions/flip/outcomes/0/set/robot", "object.attribute"),
+    (f"{FLIP}outcomes/0/set", {"robo.by": "none"}, "actions/flip/outcomes/0/set/robo.by", "did you mean robot"),
+    (f"{FLIP}outcomes/0/set", {"robot.bye": "none"}, "actions/flip/outcomes/0/set/robot.bye", "did you mean by"),
+    (f"{FLIP}outcomes/0/set", {"robot.by": "high"}, "actions/flip/outcomes/0/set/robot.by", "never level"),
+    (f"{FLIP}outcomes/0/set", {"robot.by": "x"}, "actions/flip/outcomes/0/set/robot.by", "nothing is called x"),
+    (f"{D}actions/press/outcomes/0/set", {"x.color": "red"}, "actions/press/outcomes/0/set/x.color", "no state attribute"),
+    (f"{D}constraints/0", "robot.by", "constraints/0", "must be true or false"),
+    (f"{D}constraints", ["true"] * (MAX_DECLARATIONS + 1), "constraints", "at most"),
+    (f"{FLIP}outcomes/0/probability", "p + 0.1", "actions/flip/outcomes", "do not sum to 1"),
+    (f"{FLIP}outcomes/0/probability", "p - 1", "actions/flip/outcomes/0/probability", "not between 0 and 1"),
+    (f"{FLIP}outcomes/0/probability", "1 / (p - p)", "actions/flip/outcomes/0/probability", "not between 0 and 1"),
+    (
+        f"{FLIP}outcomes/0/probability",
+        "0.5 if robot.by == one else 0.6",
+        "actions/flip/outcomes",
+        "do not sum to 1 when robot.by is two",
+    ),
+    (f"{FLIP}outcomes/0/set", {"robot.by": "robot.by.next"}, "actions/flip/outcomes/0/set", None),
+    (f"{D}actions/press/outcomes/0/set", {"x.level": "x.next.level"}, "actions/press/outcomes/0/set", "cannot be"),
+    (
+        f"{D}actions/two",
+        {"arguments": ["x: lamp", "y: lamp"], "outcomes": [{"set": {"x.level": "low", "y.level": "high"}}]},
+        "actions/two",
+        "set twice",
+    ),
+]  # fmt: skip
+
+ENVIRONMENTS = [
+    ("name", "", "/name", "empty"),
+    ("name", "a\nb", "/name", "control"),
+    ("parameters", {"q": 0.5}, "/parameters/q", "no parameter q"),
+    ("parameters", {"p": 1.5}, "/parameters/p", "between 0 and 1, not 1.5"),
+    ("values", {"colour": ["teal"]}, "/values/colour", "did you mean color"),
+    ("values", {"color": ["teal", "teal"]}, "/values/color/1", "listed twice"),
+    ("objects/one/class", "lamb", "/objects/one/class", "did you mean lamp"),
+    ("objects/robot", {"class": "lamp"}, "/objects/robot/class", "robot already"),
+    ("objects/none", {"class": "lamp"}, "/objects/none", "none"),
+    ("objects/one/synonyms", [""], "/objects/one/synonyms/0", "empty"),
+    ("objects/one/attributes/colour", "red", "/objects/one/attributes/colour", "did you mean color"),
+    ("objects/one/attributes/color", "rad", "/objects/one/attributes/color", "did you mean red"),
+    ("objects/one/attributes/next", "robot", "/objects/one/attributes/next", "must be lamp"),
+    ("objects", {str(i): {"class": "lamp"} for i in range(MAX_OBJECTS + 1)}, "/objects", "at most"),
+    ("state/on", {"level": "low"}, "/state/on", "did you mean one"),
+    ("state/one/levle", "low", "/state/one/levle", "did you mean level"),
+    ("state/one/level", "lo", "/state/one/level", "did you mean low"),
+    ("state/robot/by", "robot", "/state/robot/by", "cannot be robot"),
+    ("state/two", REMOVE, "/state", "level of two is missing"),
+    ("state/two/level", REMOVE, "/state/two", "level of two is missing"),
+]
+
+
+@pytest.mark.parametrize(("path", "value", "pointer", "detail"), SHAPES)
+def test_wrong_shapes(path, value, pointer, detail):
+    found = faults(changed(SWITCHES, (path, value)))
+    assert list(found) == [pointer]
+    assert detail in found[pointer]
+
+
+@pytest.mark.parametrize(("path", "value", "pointer", "detail"), DOMAINS)
+def test_wrong_domains(path, value, pointer, detail):
+    data = changed(SWITCHES, (path, value))
+    if detail is None:  # three.next is none, which robot.by may be
+        load_environment(data)
+        return
+    found = faults(data)
+    assert list(found) == [f"/domain_spec/{pointer}"]
+    assert detail in found[f"/domain_spec/{pointer}"]
+
+
+@pytest.mark.parametrize(("path", "value", "pointer", "detail"), ENVIRONMENTS)
+def test_wrong_environments(path, value, pointer, detail):
+    found = faults(changed(SWITCHES, (path, value)))
+    assert pointer in found
+    assert detail in found[pointer]
+    assert list(found) == [pointer] or path == "objects"
+
+
+def test_the_initial_state_keeps_the_constraints():
+    data = changed(SWITCHES, ("state/one/level", "high"), ("state/two/level", "high"))
+    assert faults(data) == {"/state": "the initial state breaks a constraint of the domain"}
+
+
+def test_an_unknown_builtin_domain():
+    assert faults(changed(toys_spec(), ("domain", "toy"))) == {
+        "/domain": "there is no built-in domain toy (did you mean toys?)"
+    }
+
+
+def test_several_faults_come_out_together():
+    data = changed(
+        SWITCHES,
+        (f"{LIT}is", "x.levl == high"),
+        (f"{FLIP}when", "robot.bye is lamp"),
+        (f"{D}constraints/0", "count(x: lamp; bright(x)) and true"),
+    )
+    assert list(faults(data)) == [
+        "/domain_spec/functions/lit/is",
+        "/domain_spec/actions/flip/when",
+        "/domain_spec/constraints/0",
+    ]
+
+
+def test_a_broken_definition_is_reported_once_and_not_where_it_is_used():
+    data = changed(SWITCHES, (f"{D}define/bright/is", "x.brightness == high"))
+    assert list(faults(data)) == ["/domain_spec/define/bright/is"]
+
+
+def test_pointers_escape_keys():
+    data = changed(SWITCHES, ("objects/one/class", "lamp"))
+    data["objects"]["a/b~c"] = {"class": "lamb"}
+    assert list(faults(data)) == ["/objects/a~1b~0c/class"]
+
+
+def test_a_value_that_means_two_things_must_be_qualified():
+    ambiguous = changed(SWITCHES, (f"{D}attributes/color/2", "high"))
+    assert "high means several things" in faults(ambiguous)["/domain_spec/define/bright/is"]
+    load_environment(
+        changed(
+            ambiguous,
+            (f"{D}define/bright/is", "x.level == level.high"),
+            (f"{D}actions/press/outcomes/0/set", {"x.level": "level.low if bright(x) else level.high"}),
+        )
+    )
+
+
+def test_deep_definitions_are_refused():
+    chain = {f"d{i}": {"is": f"d{i + 1}()"} for i in range(150)} | {"d150": {"is": "true"}}
+    found = faults(changed(SWITCHES, (f"{D}define", {**chain, "bright": SWITCHES["domain_spec"]["define"]["bright"]})))
+    assert all("deep" in detail for detail in found.values())
+
+
+def test_definitions_that_double_do_not_blow_up():
+    """Written out, d0 has 2 ** 60 calls."""
+    double = {f"d{i}": {"arguments": ["x: lamp"], "is": f"d{i + 1}(x) and d{i + 1}(x)"} for i in range(30)}
+    bright = {"arguments": ["x: lamp"], "is": "x.level == high"}
+    define = {**double, "d30": bright, "bright": bright}
+    load_environment(changed(SWITCHES, (f"{D}define", define), (f"{LIT}is", "d0(x)")))
+
+
+def test_nested_quantifiers_run_out_of_work():
+    nested = "any(a: lamp; any(b: lamp; any(c: lamp; any(d: lamp; a.level == b.level and c.level == d.level))))"
+    lamps = {f"l{i}": {"class": "lamp"} for i in range(60)}
+    state = {"robot": {"by": "none"}} | {name: {"level": "low"} for name in lamps}
+    data = changed(SWITCHES, ("objects", lamps), ("state", state), (f"{D}constraints/0", nested))
+    assert "too much work" in faults(data)[""]
+
+
+def test_too_many_groundings_are_refused():
+    lamps = {f"l{i}": {"class": "lamp"} for i in range(40)}
+    state = {"robot": {"by": "none"}} | {name: {"level": "low"} for name in lamps}
+    action = {"arguments": ["a: lamp", "b: lamp", "c: lamp"], "outcomes": [{}]}
+    data = changed(SWITCHES, ("objects", lamps), ("state", state), (f"{D}actions/three", action))
+    assert "groundings" in faults(data)["/domain_spec/actions/three"]
+
+
+EXPLICIT = [
+    ("states", 0, ["/states"]),
+    ("states", 10**9, ["/states"]),
+    ("states", "3", ["/states"]),
+    ("initial", 3, ["/initial"]),
+    ("initial", -1, ["/initial"]),
+    ("labels/a/0", 3, ["/labels/a/0"]),
+    ("labels/a/0", -1, ["/labels/a/0"]),
+    ("labels/", [0], ["/labels/"]),
+    ("transitions/0/from", 3, ["/transitions/0/from"]),
+    ("transitions/0/action", "", ["/transitions/0/action"]),
+    ("transitions/0/to/0", [1], ["/transitions/0/to/0"]),
+    ("transitions/0/to/0", [1, 0.9, 0], ["/transitions/0/to/0"]),
+    ("transitions/0/to/0", [3, 0.9], ["/transitions/0/to/0/0"]),
+    ("transitions/0/to/0", [0.5, 0.9], ["/transitions/0/to/0/0"]),
+    ("transitions/0/to/0/1", 0.8, ["/transitions/0/to"]),
+    ("transitions/0/to/0/1", -0.9, ["/transitions/0/to/0/1", "/transitions/0/to"]),
+    ("transitions/0/to", [], ["/transitions/0/to"]),
+    ("transitions/3", {"from": 0, "action": "go", "to": [[0, 1.0]]}, ["/transitions/3"]),
+    ("transitions/0/extra", 1, ["/transitions/0/extra"]),
+]
+
+
+@pytest.mark.parametrize(("path", "value", "pointers"), EXPLICIT)
+def test_wrong_explicit_environments(path, value, pointers):
+    assert list(faults(changed(TINY, (path, value)))) == pointers
+
+
+def test_explicit_environments_cannot_fill_the_memory():
+    wide = {"from": 0, "action": "go", "to": [[i, 0.001] for i in range(1000)]}
+    data = changed(TINY, ("states", 1_000_000), ("transitions", [wide]))
+    assert "exceed" in faults(data)["/transitions"]
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=True) | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3),
+    max_leaves=8,
+)
+
+
+def _paths(data, path=()):
+    yield path
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in items:
+        yield from _paths(value, (*path, key))
+
+
+PLACES = [(index, path) for index, data in enumerate((SWITCHES, TINY)) for path in _paths(data) if path]
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.sampled_from(PLACES), JSON)
+def test_anything_anywhere_is_loaded_or_refused(place, value):
+    index, path = place
+    data = changed((SWITCHES, TINY)[index])
+    target = data
+    for part in path[:-1]:
+        target = target[part]
+    target[path[-1]] = value
+    try:
+        load_environment(data)
+    except WorldError as error:
+        assert error.places
+
+
+@pytest.mark.parametrize("value", [None, [], "toys", 3, {}])
+def test_not_even_an_object(value):
+    with pytest.raises(WorldError):
+        load_environment(value)
+
+
+@pytest.mark.parametrize(("name", "data"), builtin_environments())
+def test_builtin_environments_load(name, data):
+    assert load_environment(data).name == name
