@@ -8,29 +8,35 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import httpx
 
 
 @contextmanager
-def serving() -> Iterator[httpx.Client]:
-    """A client of a fresh server; the server stops when the context ends."""
-    with tempfile.TemporaryDirectory() as folder:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "service", "serve", "--port", "0"],
-            env={**os.environ, "CQLTL_DATA_DIR": folder, "CQLTL_DATABASE_URL": ""},
-            stdout=subprocess.PIPE,
-            text=True,
-        )
+def serving(folder: Path | None = None, **environment: str) -> Iterator[httpx.Client]:
+    """A client of a new server with its store in `folder`, by default a new one; it stops when the context ends."""
+    with tempfile.TemporaryDirectory() as fresh, started(folder or Path(fresh), **environment) as process:
+        with httpx.Client(base_url=address(process), timeout=300) as client:
+            yield client
+
+
+@contextmanager
+def started(folder: Path, **environment: str) -> Iterator[subprocess.Popen[str]]:
+    """The process of a server that may not listen yet; terminated when the context ends."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "service", "serve", "--port", "0"],
+        env={**os.environ, "CQLTL_DATA_DIR": str(folder), "CQLTL_DATABASE_URL": "", **environment},
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
         try:
-            with httpx.Client(base_url=_address(process), timeout=300) as client:
-                yield client
+            yield process
         finally:
             process.terminate()
-            process.wait(30)
 
 
-def _address(process: subprocess.Popen[str]) -> str:
+def address(process: subprocess.Popen[str]) -> str:
     """The address that the server prints once it listens."""
     assert process.stdout is not None
     for line in process.stdout:

@@ -13,8 +13,15 @@ from anyio.to_thread import run_sync
 from models.errors import CqltlError
 from models.logic import Formula, parse
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, ContextualQuery, GroundedTask, evaluate, parse_query
-from models.world import Environment, State, resolve
+from models.queries import (
+    AmbiguousGroundingError,
+    ContextualQuery,
+    GroundedTask,
+    evaluate,
+    parse_query,
+    resolve_grounded,
+)
+from models.world import Environment, State
 from service.errors import AmbiguousCommandError, NotUnderstoodError, UnknownTemplateError
 from service.lessons import read_template
 from service.places import at
@@ -161,7 +168,7 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, G
             environment = LoadedEnvironment.read(order.spec)
     if order.ltl is not None:
         with at("/ltl"):
-            return environment, None, resolve(parse(order.ltl), environment.value)
+            return environment, None, resolve_grounded(parse(order.ltl), environment.value)
     with at(_source(order)):
         if order.text is not None:
             task = _task_of(services, order.text, environment.value, order.translator)

@@ -20,7 +20,7 @@ class Selectable(Protocol):
 
 _State = TypeVar("_State", bound=Selectable)
 Step = Callable[[Tensor, _State], tuple[Tensor, _State]]
-"""From the last words [N] and the states of N sequences to log-probabilities [N, E] of the next word, and new states."""
+"""From the last words [N] and states of N sequences to log-probabilities [N, E] of the next word, and new states."""
 
 
 @dataclass(frozen=True, slots=True)

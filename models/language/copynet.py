@@ -44,8 +44,12 @@ class Memory:
 
     def repeat(self, count: int) -> Memory:
         """The memory of one text `count` times over."""
-        expanded = (tensor.expand(count, -1, -1) for tensor in (self.states, self.keys, self.copies))
-        return Memory(*expanded, source=self.source.repeat(count))
+        return Memory(
+            states=self.states.expand(count, -1, -1),  # [count, S, D]
+            keys=self.keys.expand(count, -1, -1),  # [count, S, H]
+            copies=self.copies.expand(count, -1, -1),  # [count, S, H]
+            source=self.source.repeat(count),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +161,7 @@ def log_probabilities(scores: Tensor, source: SourceBatch) -> Tensor:
 
 def loss(scores: Tensor, source: SourceBatch, target: TargetBatch) -> Tensor:
     """Mean over the B texts of the negative log-probability of the whole target, from scores [B, T, G + S]."""
-    batch, steps, width = scores.shape
+    batch, _, width = scores.shape
     generated = width - source.ids.shape[1]
     numbers = torch.arange(generated)  # [G]
     generates = target.words[:, :, None] == numbers  # [B, T, G]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from models.language.items import Item
 from models.language.translator import CopyNetTranslator
@@ -11,15 +12,16 @@ from models.language.vocabulary import NO_TASK, Vocabulary
 
 
 def best_threshold(
-    translator: CopyNetTranslator, commands: Sequence[Item], refused: Sequence[Sequence[str]]
+    translator: CopyNetTranslator, commands: Sequence[Item], refused: Sequence[Sequence[str]], *, hide: bool
 ) -> float:
     """The confidence that tells commands from other text with the fewest mistakes.
 
-    Commands are counted twice, as they are and with every argument hidden; the two kinds weigh the same in sum. Of
-    equally good thresholds the middle is taken, on a logarithmic scale.
+    The share of commands that are accepted and the share of other texts that are refused weigh the same. With `hide`
+    every command counts twice: as it is, and with all its arguments hidden.
     """
     scores = [_score(translator, item.text, ()) for item in commands]
-    scores += [_score(translator, item.text, [word for phrase in item.phrases for word in phrase]) for item in commands]
+    if hide:
+        scores += [_score(translator, item.text, [w for phrase in item.phrases for w in phrase]) for item in commands]
     others = [_score(translator, text, ()) for text in refused]
     return middle_of_best(scores, others)
 
@@ -38,7 +40,7 @@ def middle_of_best(wanted: Sequence[float], unwanted: Sequence[float]) -> float:
         refused = sum(value < t for value in unwanted) / max(len(unwanted), 1)
         return accepted + refused
 
-    gaps = [(low, high, math.sqrt(low * high)) for low, high in zip(values, values[1:], strict=False)]
+    gaps = [(low, high, math.sqrt(low * high)) for low, high in pairwise(values)]
     return max(gaps, key=lambda gap: (round(quality(gap[2]), 9), gap[1] / gap[0]))[2]
 
 

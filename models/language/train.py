@@ -4,8 +4,8 @@
     python -m models.language.train --domain manipulation --output /somewhere --epochs 40 --seed 1
 
 Writes, into the output folder, `NAME.safetensors` (the tensors), `NAME.json` (vocabulary, sizes, hyper-parameters) and
-`NAME-curve.json` (losses and accuracies by epoch, and the final table), and prints the accuracy on S and U by task class.
-One thread, a few minutes. The same seed gives the same weights on the same kind of machine.
+`NAME-curve.json` (losses and accuracies by epoch, and the final table), and prints the accuracy on S and U by task
+class. One thread, a few minutes. The same seed gives the same weights on the same kind of machine.
 """
 
 from __future__ import annotations
@@ -69,8 +69,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -> tuple[Model, list[dict[str, float]]]:
     """Fit a network to T of the domains; returns the model of the epoch with the least validation loss, and the curve.
 
-    Nothing here looks at U. The validation loss is the mean of three: the commands as they are; the same with every
-    argument hidden, which stands for words never seen; texts that no task fits.
+    Nothing here looks at U. The validation loss is the mean of three: the commands as they are; texts that no task
+    fits; and, when training hides arguments, the commands with all of them hidden, which stands for words never seen.
     """
     if settings.epochs < 1:
         raise TrainingError("a run has at least one epoch")
@@ -107,8 +107,9 @@ def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -
         known, known_right = accuracy.greedy(network, vocabulary, validation)
         hidden, hidden_right = accuracy.greedy(network, vocabulary, validation, hide=True)
         refused_loss, refused_right = accuracy.greedy(network, vocabulary, held_out)
-        if (epoch_loss := (known + hidden + refused_loss) / 3) < best_loss:
-            best_loss, best_weights = epoch_loss, copy.deepcopy(network.state_dict())
+        judged = [known, refused_loss, *([hidden] if settings.hide > 0 else [])]
+        if sum(judged) / len(judged) < best_loss:
+            best_loss, best_weights = sum(judged) / len(judged), copy.deepcopy(network.state_dict())
         curve.append(
             {
                 "epoch": epoch,
@@ -122,13 +123,18 @@ def train(domains: Sequence[Domain], settings: Settings, *, log: bool = False) -
             }
         )
         if log:
-            print(" ".join(f"{key} {value}" for key, value in curve[-1].items()), f"({time.perf_counter() - started:.0f} s)")
+            print(
+                " ".join(f"{key} {value}" for key, value in curve[-1].items()),
+                f"({time.perf_counter() - started:.0f} s)",
+            )
     network.load_state_dict(best_weights)
 
     # the least confidence at which a reading is given, from the same validation data
-    arities = {task: len(group[0].query.arguments) for d in domains for task, group in by_task(generate(d).seen).items()}
+    arities = {
+        task: len(group[0].query.arguments) for d in domains for task, group in by_task(generate(d).seen).items()
+    }
     translator = CopyNetTranslator(network.eval(), vocabulary, arities, 0.0)
-    threshold = best_threshold(translator, validation, [item.text for item in held_out])
+    threshold = best_threshold(translator, validation, [item.text for item in held_out], hide=settings.hide > 0)
     record: dict[str, str | int | float] = {"domains": " ".join(domains), **asdict(settings)}
     return Model(network, vocabulary, arities, threshold, record), curve
 

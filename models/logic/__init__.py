@@ -36,6 +36,7 @@ from models.logic.formula import (
 )
 from models.logic.parser import MAX_TEXT, parse
 from models.logic.printer import atom_text, to_text
+from models.logic.simpler import simplify
 from models.logic.spot import (
     MAX_ATOMS,
     MAX_TABLE,
@@ -43,7 +44,6 @@ from models.logic.spot import (
     is_cosafe,
     is_satisfiable,
     is_valid,
-    simplify,
     translate,
 )
 

@@ -286,9 +286,7 @@ def map_atoms(formula: Formula, replace: Callable[[Atom], Formula]) -> Formula:
 
 def substitute(formula: Formula, terms: dict[Term, Term]) -> Formula:
     """The formula with every term found in `terms` replaced, simultaneously: `{a: b, b: a}` swaps."""
-    return map_atoms(
-        formula, lambda atom: Atom(atom.function, tuple(terms.get(term, term) for term in atom.arguments))
-    )
+    return map_atoms(formula, lambda atom: Atom(atom.function, tuple(terms.get(term, term) for term in atom.arguments)))
 
 
 _Symbol = Atom | Constant | tuple[Op, int]

@@ -1,8 +1,8 @@
 """How names are written: bare where they can be, quoted where they must be, and LaTeX's own way.
 
 Bare names start with a letter or `_` and go on with letters, digits and `_`, of any script. Every other name, and one
-equal to a reserved word (`X F G U R W M`, `true` and `false` in any case), is quoted: `"H&M (2nd floor)"`, with `\\"` and
-`\\\\` inside. In LaTeX a quoted name is `\\text{...}` and a bare one `\\mathrm{...}`.
+equal to a reserved word (`X F G U R W M`, `true` and `false` in any case), is quoted: `"H&M (2nd floor)"`, with a
+backslash before `"` and before a backslash. In LaTeX a quoted name is `\\text{...}` and a bare one `\\mathrm{...}`.
 """
 
 from __future__ import annotations

@@ -51,10 +51,7 @@ _STYLES = {
     Dialect.LATEX: _Style(
         {
             **{op: rf"\mathcal{{{op}}}" for op in (Op.NEXT, Op.FINALLY, Op.GLOBALLY)},
-            **{
-                op: rf"\mathbin{{\mathcal{{{op}}}}}"
-                for op in (Op.UNTIL, Op.RELEASE, Op.WEAK_UNTIL, Op.STRONG_RELEASE)
-            },
+            **{op: rf"\mathbin{{\mathcal{{{op}}}}}" for op in (Op.UNTIL, Op.RELEASE, Op.WEAK_UNTIL, Op.STRONG_RELEASE)},
             Op.NOT: r"\neg",
             Op.AND: r"\wedge",
             Op.OR: r"\vee",

@@ -26,14 +26,14 @@ MAX_ATOMS = 16
 """Most distinct atoms in what is translated or compared."""
 MAX_TABLE = 1 << 22
 """Most entries of an automaton's table: states times 2 ** atoms."""
-MAX_OBLIGATIONS = 4_096
+MAX_OBLIGATIONS = 1_024
 """Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
 _MAX_SUBSETS = 20_000  # states of any intermediate deterministic automaton
-_MAX_EDGES = 4_000_000  # its edges, which bounds the time as well: some seconds
+_MAX_EDGES = 2_000_000  # its edges, which bounds the time as well: some seconds
 
 _CLASSES = (
     ("is_syntactic_safety", "it is a safety property: it can only be broken"),
-    ("is_syntactic_obligation", "it is an obligation property"),
+    ("is_syntactic_obligation", "it is an obligation property: it mixes what can be finished with what has to be kept"),
     ("is_syntactic_recurrence", "it is a recurrence property: something has to happen again and again"),
     ("is_syntactic_persistence", "it is a persistence property: something has to hold from some time on"),
 )
@@ -137,11 +137,10 @@ def is_valid(formula: Formula) -> bool:
     return equivalent(formula, TRUE)
 
 
-def simplify(formula: Formula) -> Formula:
-    """An equivalent formula, by Spot's rewriting rules; never one with more nodes. Raises as `equivalent` does."""
+def rewrite(formula: Formula) -> Formula:
+    """An equivalent formula by Spot's rewriting rules, which may be larger. Raises as `equivalent` does."""
     vocabulary = _Vocabulary.of(formula)
-    simpler = vocabulary.decode(_spot().tl_simplifier().simplify(vocabulary.encode(formula)))
-    return simpler if simpler.size < formula.size else formula
+    return vocabulary.decode(_spot().tl_simplifier().simplify(vocabulary.encode(formula)))
 
 
 def is_cosafe(formula: Formula) -> bool:
@@ -273,9 +272,7 @@ def _breadth_first(table: NDArray[np.int32], initial: int) -> NDArray[np.int64]:
     return np.array(found, dtype=np.int64)
 
 
-def _hoa(
-    minimal: _Minimal, vocabulary: _Vocabulary, order: NDArray[np.int64], number: NDArray[np.int32]
-) -> str:
+def _hoa(minimal: _Minimal, vocabulary: _Vocabulary, order: NDArray[np.int64], number: NDArray[np.int32]) -> str:
     """The renumbered automaton in the HOA format, with the atoms as the names of its propositions."""
     spot = _spot()
     renumbered = spot.make_twa_graph(minimal.graph.get_dict())

@@ -70,7 +70,7 @@ def complain(reading: Reading, error: UnexpectedInput) -> NoReturn:
     text = reading.text
     if not text.strip():
         refuse(text, 0, "the formula is empty")
-    position: int = error.pos_in_stream or 0
+    position: int = getattr(error, "pos_in_stream", None) or 0
     if isinstance(error, UnexpectedToken) and error.token.type == "$END":
         position = len(text.rstrip())
     elif reading.last is not None and reading.last.start_pos == position:

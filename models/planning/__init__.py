@@ -1,10 +1,15 @@
 """Planning: the best policy for a formula in a world.
 
-`plan` maximises the probability of satisfying a co-safe formula and, among the policies that do, minimises the expected
-number of steps until the outcome is decided. Values come with bounds that hold.
+`plan` maximises the probability of satisfying a co-safe formula and, among the policies that do, minimises
+the expected number of steps until the outcome is decided. Values come with bounds that hold.
 """
 
-from models.planning.errors import DeviceUnavailableError, InvalidMemoryError, InvalidPolicyError, ModelTooLargeError
+from models.planning.errors import (
+    DeviceUnavailableError,
+    InvalidMemoryError,
+    InvalidPolicyError,
+    ModelTooLargeError,
+)
 from models.planning.options import Options, Progress
 from models.planning.planner import Plan, Sizes, plan
 from models.planning.policy import INVALID, NOTHING, WAIT, Policy, Step

@@ -1,9 +1,10 @@
-"""The one numeric kernel: an optimality operator over sparse choices, as torch tensors on a CPU or a CUDA device.
+"""The one numeric kernel: an optimality operator over sparse choices, as torch tensors on a CPU or a CUDA
+device.
 
-The choices of all unknowns are one CSR matrix, so a sweep is one sparse product and a few maxima. Its rows are ordered
-by jagged diagonals: unknowns with most choices first, then the first choice of every unknown, the second choice of every
-unknown that has two, and so on. The j-th choices are then a contiguous run of rows that lines up with the first unknowns,
-and the maximum over choices needs no index.
+The choices of all unknowns are one CSR matrix, so a sweep is one sparse product and a few maxima. Its rows
+are ordered by jagged diagonals: unknowns with most choices first, then the first choice of every unknown, the
+second choice of every unknown that has two, and so on. The j-th choices are then a contiguous run of rows
+that lines up with the first unknowns, and the maximum over choices needs no index.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ THREADS_FROM = 200_000
 
 DEVICE_FROM = 1_000_000
 """Outcomes from which device "auto" moves to a CUDA device."""
+
 
 class Bellman:
     """x ↦ the best over each unknown's choices of their value; vectors of this class are in its own order."""

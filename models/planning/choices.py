@@ -17,7 +17,8 @@ Vector = NDArray[np.float64]
 class Choices:
     """Choices of `unknowns` unknowns: value of choice c = constant[c] + Σ probability · x[successor].
 
-    An unknown's choices are ranked by their position here. Outcomes whose value is known are in `constant` already.
+    An unknown's choices are ranked by their position here. Outcomes whose value is known are in `constant`
+    already.
     """
 
     unknowns: int
@@ -48,13 +49,19 @@ class Choices:
 
 
 def gather(
-    product: Product, chosen: NDArray[np.integer], *, unknown: NDArray[np.int32], known: Vector, owner: NDArray[np.int32], cost: float
+    product: Product,
+    chosen: NDArray[np.integer],
+    *,
+    unknown: NDArray[np.int32],
+    known: Vector,
+    owner: NDArray[np.int32],
+    cost: float,
 ) -> Choices:
     """The product's choices `chosen` as a numeric problem.
 
-    `unknown` ([n + 2]) numbers the unknown of each node and column, -1 where `known` ([n + 2]) gives its value instead;
-    several nodes may share one unknown. `owner` is the unknown that each of `chosen` belongs to; `cost` is added to
-    every choice.
+    `unknown` ([n + 2]) numbers the unknown of each node and column, -1 where `known` ([n + 2]) gives its
+    value instead; several nodes may share one unknown. `owner` is the unknown that each of `chosen` belongs
+    to; `cost` is added to every choice.
     """
     rows = chosen.astype(np.int32)
     outcome = spans(product.first_outcome, rows)
@@ -65,10 +72,11 @@ def gather(
     open_ = successor >= 0
     settled = ~open_
     share = probability[settled] * known[node[settled]]
+    constant: Vector = cost + np.bincount(row[settled], weights=share, minlength=len(rows)).astype(np.float64)
     return Choices(
         unknowns=int(owner.max(initial=-1)) + 1,
         owner=owner,
-        constant=cost + np.bincount(row[settled], weights=share, minlength=len(rows)),
+        constant=constant,
         first_outcome=offsets(np.bincount(row[open_], minlength=len(rows))),
         successor=successor[open_],
         probability=probability[open_],

@@ -37,9 +37,11 @@ ROUNDOFF = 1e-15
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CompiledWorld:
-    """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by choice.
+    """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by
+    choice.
 
-    Every valid state has at least one choice, every choice at least one outcome; all probabilities are positive.
+    Every valid state has at least one choice, every choice at least one outcome; all probabilities are
+    positive.
     """
 
     states: int
@@ -76,10 +78,11 @@ def check_size(states: int, memories: int, options: Options) -> None:
 
 
 def check_memory(world: World, memories: int, live: int, options: Options) -> None:
-    """Refuse a product that needs more than `options.max_bytes`; raises ModelTooLargeError before allocating it.
+    """Refuse a product that needs more than `options.max_bytes`; raises ModelTooLargeError before allocating
+    it.
 
-    `live` is the number of automaton states that are iterated. The number of outcomes of a large world is estimated
-    from evenly spaced states; worlds of up to SAMPLE states are small.
+    `live` is the number of automaton states that are iterated. The number of outcomes of a large world is
+    estimated from evenly spaced states; worlds of up to SAMPLE states are small.
     """
     if world.size <= SAMPLE:
         return
@@ -164,7 +167,9 @@ def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int
 
 
 def _normalised(probability: NDArray[np.float64], outcomes: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Exact to rounding: a world may give probabilities that sum to 1 only nearly, which long runs would notice."""
+    """Exact to rounding: a world may give probabilities that sum to 1 only nearly, which long runs would
+    notice.
+    """
     if not len(outcomes):
         return probability
     total = np.add.reduceat(probability, offsets(outcomes)[:-1])

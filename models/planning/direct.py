@@ -1,7 +1,8 @@
 """Policy iteration with sparse direct solves, for small systems in which iteration creeps.
 
-A chain that leaves a state once in a million steps needs millions of sweeps but one linear solve. What comes out is only
-a proposal: `probability_bounds` turns it into bounds that hold whatever the solver did, by checking inequalities.
+A chain that leaves a state once in a million steps needs millions of sweeps but one linear solve. What comes
+out is only a proposal: `probability_bounds` turns it into bounds that hold whatever the solver did, by
+checking inequalities.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ class Proposal:
 
 
 class Improver:
-    """Howard's policy iteration over one set of choices; every policy it meets must leave the unknowns for sure."""
+    """Howard's policy iteration over one set of choices; every policy it meets must leave the unknowns for
+    sure.
+    """
 
     def __init__(self, choices: Choices, *, maximise: bool) -> None:
         shape = (len(choices.owner), choices.unknowns)
@@ -86,10 +89,10 @@ class Improver:
 def probability_bounds(choices: Choices, chosen: NDArray[np.int32]) -> tuple[Vector, Vector] | None:
     """Lower and upper bounds of the maximal values, starting from any policy; None if there is no proposal.
 
-    Every policy must leave the unknowns for sure. With W(x) >= the expected number of steps in the unknowns under every
-    policy, a vector that no choice improves by more than d lies less than d·W below the optimum, and one that its
-    policy's choices keep up to d lies less than d·W above it. W comes the same way: if no choice improves 1 + P w by
-    r < 1, then W <= w / (1 - r), because each step costs 1.
+    Every policy must leave the unknowns for sure. With W(x) >= the expected number of steps in the unknowns
+    under every policy, a vector that no choice improves by more than d lies less than d·W below the optimum,
+    and one that its policy's choices keep up to d lies less than d·W above it. W comes the same way: if no
+    choice improves 1 + P w by r < 1, then W <= w / (1 - r), because each step costs 1.
     """
     improver = Improver(choices, maximise=True)
     proposal = improver.improve(chosen)

@@ -1,7 +1,7 @@
 """Maximal end components: where a policy may stay for ever.
 
-The classical decomposition (de Alfaro 1997, algorithm 3.1; Baier and Katoen, "Principles of Model Checking", 10.6.3):
-take strongly connected components, drop the choices that may leave theirs, repeat until none does.
+The classical decomposition (de Alfaro 1997, algorithm 3.1; Baier and Katoen, "Principles of Model Checking",
+10.6.3): take strongly connected components, drop the choices that may leave theirs, repeat until none does.
 """
 
 from __future__ import annotations

@@ -41,9 +41,9 @@ def attained_probability(
 ) -> Attained:
     """Evaluate the policy of `steps` from every node.
 
-    From nodes of probability one it never leaves them and ends with probability one, so it attains exactly one. For
-    the others, a vector that one step of the policy changes by at most d is within d times the policy's expected steps
-    of the truth.
+    From nodes of probability one it never leaves them and ends with probability one, so it attains exactly
+    one. For the others, a vector that one step of the policy changes by at most d is within d times the
+    policy's expected steps of the truth.
     """
     value = qualities.certain.astype(np.float64)
     lower = value.copy()
@@ -76,7 +76,9 @@ def _watched(unknown: NDArray[np.int32], node: int, x: Vector) -> tuple[float, f
 
 
 def _settle(operator: Bellman, start: Vector, small: float, sweeps: int) -> tuple[float, Vector]:
-    """Iterate until a sweep changes nothing by more than `small` or rounding; the last change and the vector before it."""
+    """Iterate until a sweep changes nothing by more than `small` or rounding; the last change and the vector
+    before it.
+    """
     x = operator.vector(start)
     out = torch.empty_like(x)
     floor = operator.choices.roundoff
@@ -89,5 +91,3 @@ def _settle(operator: Bellman, start: Vector, small: float, sweeps: int) -> tupl
         if change <= max(small, floor):
             break
     return change, operator.numpy(x)
-
-

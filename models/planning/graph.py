@@ -1,9 +1,9 @@
 """Exact graph analysis of the product: which nodes have maximal probability 0, and which have 1.
 
-No numbers are involved, so there is no tolerance: Forejt, Kwiatkowska, Norman and Parker, "Automated verification
-techniques for probabilistic systems" (SFM 2011), algorithms Prob0A and Prob1E; de Alfaro, "Formal verification of
-probabilistic systems" (1997), for the almost-sure set by repeated removal. Only frontiers are touched, so a pass costs
-time in proportion to the outcomes.
+No numbers are involved, so there is no tolerance: Forejt, Kwiatkowska, Norman and Parker, "Automated
+verification techniques for probabilistic systems" (SFM 2011), algorithms Prob0A and Prob1E; de Alfaro,
+"Formal verification of probabilistic systems" (1997), for the almost-sure set by repeated removal. Only
+frontiers are touched, so a pass costs time in proportion to the outcomes.
 """
 
 from __future__ import annotations
@@ -97,7 +97,9 @@ def analyse(product: Product, graph: Predecessors) -> Qualities:
     return Qualities(possible, certain, allowed)
 
 
-def _remove(graph: Predecessors, nodes: NDArray[np.int32], inside: Mask, allowed: Mask, remaining: NDArray[np.int32]) -> bool:
+def _remove(
+    graph: Predecessors, nodes: NDArray[np.int32], inside: Mask, allowed: Mask, remaining: NDArray[np.int32]
+) -> bool:
     """Forbid every choice that may enter `nodes`, and take out, in turn, the nodes left without a choice.
 
     Updates the last three in place; says whether a choice of a node that was still inside was forbidden.

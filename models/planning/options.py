@@ -12,10 +12,10 @@ Device = Literal["auto", "cpu", "cuda"]
 class Options:
     """Accuracy and limits of one plan.
 
-    `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values are
-    computed more exactly than that, because ties between actions are decided on them. A plan that has not reached
-    `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto" takes a CUDA device
-    for large models when there is one.
+    `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values
+    are computed more exactly than that, because ties between actions are decided on them. A plan that has not
+    reached `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto"
+    takes a CUDA device for large models when there is one.
     """
 
     epsilon: float = 1e-6
@@ -40,12 +40,13 @@ class Progress(Protocol):
     """Told about every sweep; an exception that it raises cancels the plan and reaches the caller of `plan`."""
 
     def __call__(self, stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
-        """`sweep` counts from 1; the bounds are those of the initial state's value; `states` is what a sweep updates.
+        """`sweep` counts from 1; the bounds are those of the initial state's value; `states` is what a sweep
+        updates.
 
-        In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say nothing
-        yet (0 and infinity).
+        In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say
+        nothing yet (0 and infinity).
         """
 
 
-def no_progress(stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:  # noqa: ARG001
+def no_progress(stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
     """Tell nobody."""

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from models.logic import Automaton, Dialect, Formula, to_text, translate
-from models.planning.compiled import CompiledWorld, check_memory, check_size, compile_world
+from models.planning.compiled import check_memory, check_size, compile_world
 from models.planning.evaluation import Attained, attained_probability
 from models.planning.graph import Predecessors, Qualities, analyse, predecessors
 from models.planning.options import Options, Progress, no_progress
@@ -26,8 +26,8 @@ from models.world import StateError, World
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 
 SLACKS = (1e-10, 1e-12, 1e-14)
-"""How much probability a choice may seem to lose and still count as tied; tried in turn until the policy attains what
-it should."""
+"""How much probability a choice may seem to lose and still count as tied; tried in turn until the policy
+attains what it should."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +43,11 @@ class Sizes:
 class Plan:
     """The answer.
 
-    "unsatisfiable": no word at all satisfies the formula. "unreachable": this world, from the initial state, cannot.
-    Both have probability 0 and neither policy nor trajectory. "solved": the policy satisfies the formula with
-    probability at least `lower`, and no policy does with more than `upper`; `expected_steps` are its steps until the
-    outcome is decided, the fewest among policies of that probability, and lie between `expected_steps` and
-    `expected_steps_upper`, which is infinite if iteration was cut short.
+    "unsatisfiable": no word at all satisfies the formula. "unreachable": this world, from the initial state,
+    cannot. Both have probability 0 and neither policy nor trajectory. "solved": the policy satisfies the
+    formula with probability at least `lower`, and no policy does with more than `upper`; `expected_steps` are
+    its steps until the outcome is decided, the fewest among policies of that probability, and lie between
+    `expected_steps` and `expected_steps_upper`, which is infinite if iteration was cut short.
     """
 
     outcome: Outcome
@@ -72,9 +72,9 @@ def plan(
 ) -> Plan:
     """Plan a resolved, co-safe formula from the state `initial` (default: the world's).
 
-    Deterministic. Raises FormulaNotCosafeError and FormulaTooLargeError (formula), UnknownPropositionError and its kin
-    (atoms), StateError (initial state), ModelTooLargeError (before allocating), DeviceUnavailableError, and whatever
-    `progress` raises.
+    Deterministic. Raises FormulaNotCosafeError and FormulaTooLargeError (formula), UnknownPropositionError
+    and its kin (atoms), StateError (initial state), ModelTooLargeError (before allocating),
+    DeviceUnavailableError, and whatever `progress` raises.
     """
     settings = options or Options()
     start = world.initial if initial is None else initial
@@ -147,8 +147,9 @@ def _optimise(
 ) -> tuple[Steps, Attained]:
     """The fewest steps over the choices tied for the best probability, and what their policy attains.
 
-    Which choices tie is only known as exactly as the values. A choice that is worse by a hair may be taken again and
-    again, so the policy is evaluated, and ties are read more strictly until it attains the lower bound within epsilon.
+    Which choices tie is only known as exactly as the values. A choice that is worse by a hair may be taken
+    again and again, so the policy is evaluated, and ties are read more strictly until it attains the lower
+    bound within epsilon.
     """
     best: tuple[Steps, Attained] | None = None
     for slack in SLACKS:

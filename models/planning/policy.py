@@ -1,7 +1,8 @@
 """A policy: what a robot does in every state with every memory.
 
-The robot's loop: observe the state s, look up (memory, s), keep the memory that comes back, do the action, observe again.
-Memory starts at `initial_memory`. The lookup reads the label of s, so arrays are indexed by the memory *before* reading.
+The robot's loop: observe the state s, look up (memory, s), keep the memory that comes back, do the action,
+observe again. Memory starts at `initial_memory`. The lookup reads the label of s, so arrays are indexed by
+the memory *before* reading.
 """
 
 from __future__ import annotations
@@ -34,10 +35,11 @@ Status = Literal["running", "satisfied", "lost"]
 class Step:
     """What to do now.
 
-    `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "lost" (it cannot be satisfied from here,
-    `probability` is 0 and `action` None: a robot should stop and ask for another task) or "running". While running,
-    `action` is None only where the world enables none: observe again one step later. `expected_steps` counts
-    the steps until the status is one of the first two; `probability` is that of "satisfied".
+    `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "lost" (it cannot be satisfied
+    from here, `probability` is 0 and `action` None: a robot should stop and ask for another task) or
+    "running". While running, `action` is None only where the world enables none: observe again one step
+    later. `expected_steps` counts the steps until the status is one of the first two; `probability` is that
+    of "satisfied".
     """
 
     action: str | None
@@ -52,8 +54,8 @@ class Step:
 class Policy:
     """Arrays over (memory before reading, state), and the names to read them with.
 
-    Every product state has its entry, also those that the initial state never leads to, so a robot that was moved may
-    carry on from where it is. Q memories, S states.
+    Every product state has its entry, also those that the initial state never leads to, so a robot that was
+    moved may carry on from where it is. Q memories, S states.
     """
 
     variables: tuple[Variable, ...]  # the digits of a state index, the most significant first
@@ -94,7 +96,8 @@ class Policy:
         return decode_state(index, self.variables, strides(self.variables))
 
     def step(self, state: int | State, memory: int) -> Step:
-        """What to do in `state` (an index, or by name as for `encode`) with the memory before its label is read.
+        """What to do in `state` (an index, or by name as for `encode`) with the memory before its label is
+        read.
 
         Raises StateError for an invalid state and InvalidMemoryError for a memory the policy does not have.
         """

@@ -1,8 +1,9 @@
 """Policies as bytes and as JSON: the same policy always gives the same bytes.
 
-Bytes: the magic `cqltl\\0p1`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8, keys sorted),
-then one zlib stream of the arrays `action` and `next_memory` (int32), `probability` and `expected_steps` (float64), each
-little-endian, [memories, states], row by row. No clock, host or library version goes in.
+Bytes: the magic `cqltl\\0p1`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8,
+keys sorted), then one zlib stream of the arrays `action` and `next_memory` (int32), `probability` and
+`expected_steps` (float64), each little-endian, [memories, states], row by row. No clock, host or library
+version goes in.
 
 JSON: see `to_json`.
 """
@@ -87,7 +88,9 @@ def _header(policy: Policy) -> dict[str, Any]:
         "formula": policy.formula,
         "hoa": policy.hoa,
         "initial": {"state": policy.initial_state, "memory": policy.initial_memory},
-        "variables": [{"object": v.object, "attribute": v.attribute, "values": list(v.values)} for v in policy.variables],
+        "variables": [
+            {"object": v.object, "attribute": v.attribute, "values": list(v.values)} for v in policy.variables
+        ],
     }
 
 
@@ -95,13 +98,16 @@ def to_json(policy: Policy) -> dict[str, Any]:
     """The whole policy as JSON values.
 
     `state index = Σ stride[v] · (position of the state's value in variables[v].values)`; the flat arrays hold
-    `memories · states` entries, `entry = memory · states + state index`, with the memory before the label of the state is
-    read (start with `initial.memory`):
+    `memories · states` entries, `entry = memory · states + state index`, with the memory before the label of
+    the state is read (start with `initial.memory`):
 
-    - `action`: index into `actions`; -1 nothing to do (decided, or the state is invalid); -2 no action is enabled, let
+    - `action`: index into `actions`; -1 nothing to do (decided, or the state is invalid); -2 no action is
+    enabled, let
       one step pass;
-    - `next_memory`: the memory to use at the next state; -1 the state is invalid. Done where `accepted[next_memory]` is 1;
-    - `probability` of satisfying the formula and `expected_steps` until the outcome is decided, under this policy,
+    - `next_memory`: the memory to use at the next state; -1 the state is invalid. Done where
+    `accepted[next_memory]` is 1;
+    - `probability` of satisfying the formula and `expected_steps` until the outcome is decided, under this
+    policy,
       rounded to 9 decimals (-1 steps: no bound is known).
     """
     header = _header(policy)

@@ -1,11 +1,12 @@
 """Maximal probability of reaching acceptance, with bounds that hold.
 
-Interval iteration: Haddad and Monmege, "Interval iteration algorithm for MDPs and IMDPs" (TCS 2018); Baier, Klein,
-Leuschner, Parker and Wunderlich, "Ensuring the reliability of your model checker: interval iteration for Markov decision
-processes" (CAV 2017). Nodes of probability 0 and 1 are settled by graph analysis. Each maximal end component of the rest
-is one unknown with the choices that leave it, so that every policy leaves the unknowns for sure and both bounds converge
-to the same, only, fixed point. Each sweep rounds its result outwards, as in Hartmanns, "Correct probabilistic model
-checking with floating-point arithmetic" (TACAS 2022), so that the bounds hold in floating point too.
+Interval iteration: Haddad and Monmege, "Interval iteration algorithm for MDPs and IMDPs" (TCS 2018); Baier,
+Klein, Leuschner, Parker and Wunderlich, "Ensuring the reliability of your model checker: interval iteration
+for Markov decision processes" (CAV 2017). Nodes of probability 0 and 1 are settled by graph analysis. Each
+maximal end component of the rest is one unknown with the choices that leave it, so that every policy leaves
+the unknowns for sure and both bounds converge to the same, only, fixed point. Each sweep rounds its result
+outwards, as in Hartmanns, "Correct probabilistic model checking with floating-point arithmetic" (TACAS 2022),
+so that the bounds hold in floating point too.
 """
 
 from __future__ import annotations
@@ -52,9 +53,15 @@ class Probability:
 
 
 def maximal_probability(
-    product: Product, qualities: Qualities, initial: int, *, options: Options, progress: Progress = no_progress
+    product: Product,
+    qualities: Qualities,
+    initial: int,
+    *,
+    options: Options,
+    progress: Progress = no_progress,
 ) -> Probability:
-    """Bound the maximal probability of acceptance from every node; `initial` is the one that progress reports.
+    """Bound the maximal probability of acceptance from every node; `initial` is the one that progress
+    reports.
 
     The gap is at most `options.epsilon` everywhere unless `options.max_sweeps` came first.
     """
@@ -84,7 +91,8 @@ def _quotient(product: Product, maybe: NDArray[np.bool_], known: Vector) -> tupl
 def iterate_intervals(
     choices: Choices, watched: int, *, options: Options, progress: Progress = no_progress
 ) -> tuple[Vector, Vector]:
-    """Lower and upper bounds of the maximal values of choices under which every policy leaves the unknowns for sure.
+    """Lower and upper bounds of the maximal values of choices under which every policy leaves the unknowns
+    for sure.
 
     `watched` is the unknown whose bounds progress reports; -1 for a value that is settled already.
     """

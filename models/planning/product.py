@@ -1,8 +1,9 @@
 """The product of a compiled world with a deterministic automaton.
 
 A node is a pair (memory, state) whose memory has read the state's label: entering s' from (q, s) leads to
-(δ(q, L(s')), s'), so the label read on a step is that of the state entered, and the label of the initial state is read
-before the first step. Nodes with an accepting or rejecting memory are decided: they are two columns, not nodes.
+(δ(q, L(s')), s'), so the label read on a step is that of the state entered, and the label of the initial
+state is read before the first step. Nodes with an accepting or rejecting memory are decided: they are two
+columns, not nodes.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from models.planning.ragged import offsets, spans
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Product:
-    """The undecided nodes that some memory and label lead to, with choices and outcomes laid out as in CompiledWorld.
+    """The undecided nodes that some memory and label lead to, with choices and outcomes laid out as in
+    CompiledWorld.
 
     Successors are node numbers, or `accepted` or `lost`.
     """
@@ -52,7 +54,9 @@ class Product:
         return int(self.node[self.next_memory[memory, state], state])
 
     def columns_before(self) -> NDArray[np.int32]:
-        """[Q, S] by memory before reading: the node or column that reading the label leads to; `lost` if invalid."""
+        """[Q, S] by memory before reading: the node or column that reading the label leads to; `lost` if
+        invalid.
+        """
         invalid = self.next_memory < 0
         column: NDArray[np.int32] = np.take_along_axis(self.node, np.where(invalid, 0, self.next_memory), axis=0)
         column[invalid] = self.lost
@@ -70,7 +74,9 @@ def read_labels(automaton: Automaton, labels: NDArray[np.bool_], valid: NDArray[
 
 
 def build_product(world: CompiledWorld, automaton: Automaton, next_memory: NDArray[np.int32]) -> Product:
-    """The product over every memory and valid state, not only the reachable ones: a robot may re-enter anywhere."""
+    """The product over every memory and valid state, not only the reachable ones: a robot may re-enter
+    anywhere.
+    """
     live = np.flatnonzero(~automaton.accepting & ~automaton.rejecting)
     node, members = _number_nodes(world, automaton, next_memory, live)
     everything = np.arange(world.states, dtype=np.int32)

@@ -22,7 +22,8 @@ def spans(first: Index, rows: Index) -> Index:
     if not len(rows):
         return start
     end = np.cumsum(count, dtype=np.int32)
-    return np.repeat(start - end + count, count) + np.arange(end[-1], dtype=np.int32)
+    positions: Index = np.repeat(start - end + count, count) + np.arange(end[-1], dtype=np.int32)
+    return positions
 
 
 def owners(first: Index) -> Index:
@@ -31,7 +32,10 @@ def owners(first: Index) -> Index:
 
 
 def distinct(values: Index, scratch: Index) -> Index:
-    """`values` without repetitions, order kept by last occurrence; `scratch` is as long as the values are large."""
+    """`values` without repetitions, order kept by last occurrence; `scratch` is as long as the values are
+    large.
+    """
     order = np.arange(len(values), dtype=np.int32)
     scratch[values] = order
-    return values[scratch[values] == order]
+    kept: Index = values[scratch[values] == order]
+    return kept

@@ -1,4 +1,6 @@
-"""Seeded runs of a policy in the world itself, not in the planner's product: an independent check of its claims."""
+"""Seeded runs of a policy in the world itself, not in the planner's product: an independent check of its
+claims.
+"""
 
 from __future__ import annotations
 
@@ -34,9 +36,17 @@ class Simulation:
 
 
 def simulate(
-    world: World, policy: Policy, *, runs: int, seed: int, initial: int | None = None, max_steps: int = MAX_STEPS
+    world: World,
+    policy: Policy,
+    *,
+    runs: int,
+    seed: int,
+    initial: int | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> Simulation:
-    """Run `policy` from `initial` (default: the policy's initial state) `runs` times; the seed decides everything."""
+    """Run `policy` from `initial` (default: the policy's initial state) `runs` times; the seed decides
+    everything.
+    """
     generator = np.random.default_rng(seed)
     state = np.full(runs, policy.initial_state if initial is None else initial, dtype=np.int64)
     memory = np.full(runs, policy.initial_memory, dtype=np.int64)

@@ -1,14 +1,17 @@
 """Among the policies of maximal probability, one with the fewest expected steps until the outcome is decided.
 
-A stochastic shortest path with unit costs (Bertsekas and Tsitsiklis, "An analysis of stochastic shortest path problems",
-1991) over the choices that keep the maximal probability, ending where the formula can no longer fail or can no longer be
-met. Staying undecided for ever is not optimal there, since it costs infinitely much.
+A stochastic shortest path with unit costs (Bertsekas and Tsitsiklis, "An analysis of stochastic shortest path
+problems", 1991) over the choices that keep the maximal probability, ending where the formula can no longer
+fail or can no longer be met. Staying undecided for ever is not optimal there, since it costs infinitely much.
 
-Value iteration starts from below, so its vector v satisfies v <= T v, and every step costs 1. If no node's value rises by
-more than r < 1 in a sweep, then for u = v / (1 - r):  T u = 1 + (T v - 1) / (1 - r) <= 1 + (v + r - 1) / (1 - r) = u,
-so v <= optimum <= v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over its own
-choices: it decides the outcome with probability one and needs at most v / (1 - r) expected steps. It can therefore not
-circle on a tie, and its values need no further evaluation.
+Value iteration starts from below, so its vector v satisfies v <= T v, and every step costs 1. If no node's
+value rises by more than r < 1 in a sweep, then u = v / (1 - r) satisfies
+
+    T u = 1 + (T v - 1) / (1 - r) <= 1 + (v + r - 1) / (1 - r) = u,
+
+so v <= optimum <= v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over
+its own choices: it decides the outcome with probability one and needs at most v / (1 - r) expected steps. It
+can therefore not circle on a tie, and its values need no further evaluation.
 """
 
 from __future__ import annotations
@@ -39,8 +42,8 @@ TIE = 1e-9
 class Steps:
     """A policy and its expected steps until the outcome is decided, by node and column.
 
-    `upper` is infinite where iteration was cut short before it could bound anything; the policy still decides the
-    outcome with probability one.
+    `upper` is infinite where iteration was cut short before it could bound anything; the policy still decides
+    the outcome with probability one.
     """
 
     chosen: NDArray[np.int32]  # [n]  choice of each node; -1 at nodes of probability 0
@@ -49,7 +52,8 @@ class Steps:
 
 
 def conserving(product: Product, qualities: Qualities, probability: Probability, slack: float) -> NDArray[np.bool_]:
-    """[C] the choices of undecided nodes that keep the maximal probability, up to `slack` where it is not known exactly.
+    """[C] the choices of undecided nodes that keep the maximal probability, up to `slack` where it is not
+    known exactly.
 
     At nodes of probability one no number is involved.
     """
@@ -74,7 +78,9 @@ def fewest_steps(
     options: Options,
     progress: Progress = no_progress,
 ) -> Steps | None:
-    """Minimise the expected steps over the choices `kept`; None if they cannot decide the outcome from every node."""
+    """Minimise the expected steps over the choices `kept`; None if they cannot decide the outcome from every
+    node.
+    """
     ends = np.flatnonzero(~qualities.possible | (np.arange(product.nodes + 2) >= product.nodes)).astype(np.int32)
     reached = reach(graph, ends, allowed=kept)
     if not reached.mask[:-2].all():
@@ -109,7 +115,8 @@ def _solve(
 ) -> tuple[NDArray[np.int32], Vector, float]:
     """The policy, its values from below and their relative error (see the module).
 
-    `start` is the distance in steps, a first lower bound; `towards` the policy that follows it, the last resort.
+    `start` is the distance in steps, a first lower bound; `towards` the policy that follows it, the last
+    resort.
     """
     operator = Bellman(choices, maximise=False, device=options.device)
     place = int(operator.position[watched]) if watched >= 0 else -1
@@ -133,7 +140,9 @@ def _solve(
 
 
 def _solve_directly(operator: Bellman, x: torch.Tensor, towards: NDArray[np.int32]) -> torch.Tensor | None:
-    """The optimum from policy iteration, made a lower bound: if x >= T x - r then x / (1 + r) <= T (x / (1 + r))."""
+    """The optimum from policy iteration, made a lower bound: if x >= T x - r then x / (1 + r) <= T (x / (1 +
+    r)).
+    """
     greedy, rise = operator.greedy(x, TIE)
     improver = Improver(operator.choices, maximise=False)
     proposal = improver.improve(greedy if rise < 1.0 else towards)

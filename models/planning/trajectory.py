@@ -16,8 +16,8 @@ MAX_LENGTH = 10_000
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryStep:
-    """A state, the memory before its label is read, and the action done there (an index; None where the run ends or
-    the world enables none)."""
+    """A state, the memory before its label is read, and the action done there (an index; None where the run
+    ends or the world enables none)."""
 
     state: int
     memory: int
@@ -37,8 +37,8 @@ def most_likely_run(
 ) -> Trajectory:
     """At every step the most probable successor that the run has not been at yet; the lowest index on ties.
 
-    A slip that leaves everything as it was is thus passed over. The run ends where `chosen` ([n], by node) has no
-    choice, when only visited nodes follow, or after MAX_LENGTH steps.
+    A slip that leaves everything as it was is thus passed over. The run ends where `chosen` ([n], by node)
+    has no choice, when only visited nodes follow, or after MAX_LENGTH steps.
     """
     steps: list[TrajectoryStep] = []
     visited: set[int] = set()

@@ -18,7 +18,7 @@ from models.queries.errors import (
     UnusedParameterError,
 )
 from models.queries.learning import Example, learn
-from models.queries.lifting import LiftedFormula, lift
+from models.queries.lifting import LiftedFormula, lift, resolve_grounded
 from models.queries.review import review, simplest_equivalent
 from models.queries.template import Binding, GroundedTask, Template, evaluate, parameter_kinds
 
@@ -42,6 +42,7 @@ __all__ = [
     "lift",
     "parameter_kinds",
     "parse_query",
+    "resolve_grounded",
     "review",
     "simplest_equivalent",
 ]

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from models.errors import CqltlError, Place
-from models.logic import Atom, Constant, Formula, Parameter, atoms, children
+from models.logic import Atom, Constant, Formula, Parameter, children
 from models.logic.formula import build
 from models.queries.contextual_query import ContextualQuery
 from models.queries.errors import (
@@ -21,9 +21,9 @@ from models.queries.errors import (
     InconsistentExamplesError,
     UnusedParameterError,
 )
-from models.queries.lifting import lift, shape, slots
+from models.queries.lifting import lift, resolve_grounded, shape, slots
 from models.queries.template import Template, parameter_kinds
-from models.world import Environment, Symbol, UnknownObjectError, ground, resolve
+from models.world import Environment, Symbol, UnknownObjectError, ground
 
 Column = tuple[Symbol, ...]
 """The symbols that a set of places of the formula holds, one per example."""
@@ -68,9 +68,7 @@ def learn(examples: Sequence[Example], environment: Environment) -> Template:
 
 def _resolve(formula: Formula, index: int, environment: Environment) -> Formula:
     try:
-        if any(isinstance(term, Parameter) for atom in atoms(formula) for term in atom.arguments):
-            raise UnknownObjectError("the formula of an example names objects, not parameters such as $1")
-        return resolve(formula, environment)
+        return resolve_grounded(formula, environment)
     except CqltlError as error:
         error.places = (Place(f"/{index}/formula", error.detail),)
         raise

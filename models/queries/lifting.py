@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from models.logic import Atom, Constant, Formula, Name, Op, Parameter, atoms, children, map_atoms
-from models.world import Environment, Symbol, atom_symbols
+from models.world import Environment, Symbol, UnknownObjectError, atom_symbols, resolve
 
 Shape = tuple[object, ...]
 """A formula without its names, as nested tuples: two formulas lift to the same LTL when their shapes are equal."""
@@ -19,6 +19,17 @@ class LiftedFormula:
 
     formula: Formula
     variables: tuple[tuple[str, Symbol], ...]
+
+
+def resolve_grounded(formula: Formula, environment: Environment) -> Formula:
+    """Resolve a formula that must be grounded: it names objects, and has no parameters such as `$1`.
+
+    Raises:
+        UnknownObjectError: it has a parameter; and what `models.world.resolve` raises.
+    """
+    if any(isinstance(term, Parameter) for atom in atoms(formula) for term in atom.arguments):
+        raise UnknownObjectError("a grounded formula names objects, not parameters such as $1")
+    return resolve(formula, environment)
 
 
 def lift(formula: Formula, environment: Environment) -> LiftedFormula:

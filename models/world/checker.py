@@ -191,7 +191,9 @@ class Checker:
         try:
             result = self.definition(name)
         except ExpressionError as error:
-            raise (error if name in self._open else BrokenDefinitionError(f"{name} is not well defined")) from error
+            if name not in self._failed:  # the fault is this very call
+                raise
+            raise BrokenDefinitionError(f"{name} is not well defined") from error
         depth = result.depth
         for argument, given in zip(arguments, expression.arguments, strict=True):
             typed = self._entity(given, scope)

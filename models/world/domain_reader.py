@@ -211,8 +211,9 @@ class _Reader:
         says = spec.says if spec.says is not None else f"{name}({listed})" if arguments else name.replace("_", " ")
         denies = spec.denies if spec.denies is not None else _denial(says)
         path = ("functions", name)
-        for place, pattern in (("says", says), ("denies", denies)):
-            self._pattern((*path, place), pattern, arguments)
+        self._pattern((*path, "says"), says, arguments)
+        if spec.denies is not None:
+            self._pattern((*path, "denies"), denies, arguments)
         for index, pattern in enumerate(spec.display):
             self._display((*path, "display", index), pattern, arguments)
         parameters = tuple(FunctionParameter(a.name, frozenset(a.kinds)) for a in arguments)

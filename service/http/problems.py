@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from http import HTTPStatus
 from typing import Any
 
@@ -123,19 +123,21 @@ def _invalid(_request: Request, error: Exception) -> JSONResponse:
     if any(item["type"] == "json_invalid" for item in found):
         reason = found[0].get("ctx", {}).get("error", "it does not parse")
         return problem_response("malformed-json", f"the body is not JSON: {reason}")
-    places = [ErrorPlace(pointer=_pointer(item["loc"], error.body), detail=item["msg"]) for item in found]
+    places = [ErrorPlace(pointer=_pointer(item, error.body), detail=item["msg"]) for item in found]
     first = places[0]
     return problem_response("validation", f"{first.pointer or 'the request'}: {first.detail}", errors=places)
 
 
-def _pointer(location: Sequence[str | int], body: Any) -> str:
+def _pointer(item: Mapping[str, Any], body: Any) -> str:
     """The JSON pointer of a validation error; the names of union members, which pydantic adds, are left out."""
+    location: Sequence[str | int] = item["loc"]
     if not location or location[0] != "body":
         return "".join(f"/{part}" for part in location)
     parts: list[str] = []
     value = body
     for number, part in enumerate(location[1:], start=2):
-        if isinstance(value, dict) and part not in value and number < len(location):
+        missing = item["type"] == "missing" and number == len(location)
+        if isinstance(value, dict) and part not in value and not missing:
             continue
         parts.append(str(part).replace("~", "~0").replace("/", "~1"))
         try:

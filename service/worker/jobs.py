@@ -11,7 +11,6 @@ from models.logic import Formula, equivalent, parse
 from models.queries import Template, review
 from models.world import Environment, State, World, compile_world, load_environment
 
-
 if TYPE_CHECKING:  # planning loads torch, which the process for formula checks does without
     from models.planning import Trajectory
 

@@ -41,9 +41,7 @@ def _enumerated(table: Tensor) -> list[tuple[tuple[int, ...], float]]:
         for words in product(range(1, SIZE), repeat=length):
             sequence = (*words, END)
             history = (START, START, *sequence)
-            total = sum(
-                table[history[i], history[i + 1], history[i + 2]].item() for i in range(len(sequence))
-            )
+            total = sum(table[history[i], history[i + 1], history[i + 2]].item() for i in range(len(sequence)))
             found.append((sequence, total))
     return sorted(found, key=lambda item: -item[1])
 

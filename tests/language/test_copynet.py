@@ -71,8 +71,12 @@ class ByHand:
         copy_scores: list[float] = [0.0] * len(text)
         for word in answer:
             scores = [
-                float((self.weights["attention.weight"] @ np.tanh(self.linear("attention_key", h) + self.weights[
-                    "attention_query.weight"] @ hidden))[0])
+                float(
+                    (
+                        self.weights["attention.weight"]
+                        @ np.tanh(self.linear("attention_key", h) + self.weights["attention_query.weight"] @ hidden)
+                    )[0]
+                )
                 for h in states
             ]
             attention = np.exp(scores) / np.exp(scores).sum()
@@ -85,7 +89,9 @@ class ByHand:
             generate = self.linear("generate", hidden)
             copy_scores = [float(np.tanh(self.linear("copy", h)) @ hidden) for h in states]
             normaliser = np.exp(generate).sum() + np.exp(copy_scores).sum()  # both modes together
-            probability = {w: float(np.exp(s) / normaliser) for w, s in zip(self.vocabulary.words, generate, strict=False)}
+            probability = {
+                w: float(np.exp(s) / normaliser) for w, s in zip(self.vocabulary.words, generate, strict=False)
+            }
             for token, score in zip(text, copy_scores, strict=True):
                 probability[token] = probability.get(token, 0.0) + float(np.exp(score) / normaliser)
             steps.append(probability)

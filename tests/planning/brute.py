@@ -1,4 +1,5 @@
-"""An independent, slow, plain reference: formulas by progression, products as dictionaries, Howard's policy iteration.
+"""An independent, slow, plain reference: formulas by progression, products as dictionaries, Howard's policy
+iteration.
 
 Nothing of models.planning or of the automata is used: a formula is a nested tuple in negation normal form,
 ("ap", name), ("not", name), ("and", f, g), ("or", f, g), ("X", f), ("F", f), ("U", f, g), which is co-safe.
@@ -39,7 +40,7 @@ def text(f: LTL) -> str:
         case ("U", left, right):
             return f"({text(left)} U {text(right)})"
         case (op, operand):
-            return f"{op} ({text(operand)})"
+            return f"({op} ({text(operand)}))"
     raise AssertionError(f)
 
 
@@ -78,7 +79,9 @@ def _progress(f: LTL, letter: frozenset[str]) -> Clauses:
 
 
 class Monitor:
-    """The deterministic automaton of a formula, by progression, with what is certain worked out over its states."""
+    """The deterministic automaton of a formula, by progression, with what is certain worked out over its
+    states.
+    """
 
     def __init__(self, f: LTL) -> None:
         self.initial: Clauses = frozenset({frozenset({f})})
@@ -193,7 +196,8 @@ def _attract(choices: Mapping[Node, list[dict[Node, float]]], goal: set[Node]) -
 def _iterate(
     choices: Mapping[Node, list[dict[Node, float]]], known: Mapping[Node, float], *, cost: float, sign: float
 ) -> dict[Node, float]:
-    """Policy iteration from a policy that heads for the known nodes; a choice is replaced by a strictly better one only.
+    """Policy iteration from a policy that heads for the known nodes; a choice is replaced by a strictly
+    better one only.
 
     For probabilities the known nodes of value 0 do not attract, so the first policy may stop nowhere else.
     """

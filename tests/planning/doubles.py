@@ -68,17 +68,20 @@ class ArrayWorld:
 def random_world(seed: int, *, states: int | None = None, atoms: str = "ab") -> ArrayWorld:
     """A random MDP with self-loops, traps, end components, unreachable parts and states without actions."""
     pick = random.Random(seed)
-    size = states or pick.randint(1, 24)
+    size = states or pick.choice([1, 3, 5, 8, 12, 18, 24])
     transitions: dict[int, dict[str, dict[int, float]]] = {}
+    stuck = {state for state in range(size) if state == size - 1 or pick.random() < 0.25}
     for state in range(size):
-        actions = pick.sample(["p", "q", "r", "s"], pick.choice([0, 1, 1, 2, 2, 3, 4]))
+        actions = pick.sample(["p", "q", "r", "s"], 0 if state in stuck else pick.choice([1, 1, 1, 2, 2, 3, 4]))
         transitions[state] = {}
         for action in sorted(actions):
-            targets = pick.sample(range(size), min(size, pick.choice([1, 1, 2, 3])))
-            if pick.random() < 0.3:
+            targets = pick.sample(range(size), min(size, pick.choice([1, 2, 3, 3])))
+            if pick.random() < 0.2:
                 targets[0] = state
+            if pick.random() < 0.2:
+                targets[-1] = size - 1
             weights = [pick.choice([1, 1, 2, 5, 0.25]) for _ in set(targets)]
             total = sum(weights)
             transitions[state][action] = {t: w / total for t, w in zip(dict.fromkeys(targets), weights, strict=True)}
-    holds = {name: frozenset(s for s in range(size) if pick.random() < 0.2) for name in atoms}
-    return ArrayWorld(size, transitions, holds, initial=pick.randrange(size))
+    holds = {name: frozenset(s for s in range(size - 1) if pick.random() < 0.2) for name in atoms}
+    return ArrayWorld(size, transitions, holds, initial=pick.choice(sorted(set(range(size)) - stuck) or [0]))

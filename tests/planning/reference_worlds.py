@@ -1,7 +1,8 @@
 """The dynamics of toys and navigation once more, in plain Python on tuples, from their description in words.
 
-A grid of columns x rows with walls at its edge. A move goes where it should with 1 - slip, to each side with slip / 2;
-against a wall one stays. A grasp fails with slip. At most one thing is held, and the robot grasps only what is where it is.
+A grid of columns x rows with walls at its edge. A move goes where it should with 1 - slip, to each side with
+slip / 2; against a wall one stays. A grasp fails with slip. At most one thing is held, and the robot grasps
+only what is where it is.
 """
 
 from __future__ import annotations
@@ -11,7 +12,12 @@ from dataclasses import dataclass
 
 HELD, BOXED = "held", "boxed"
 _MOVES = {"north": (0, -1), "south": (0, 1), "east": (1, 0), "west": (-1, 0)}
-_SIDES = {"north": ("west", "east"), "south": ("west", "east"), "east": ("north", "south"), "west": ("north", "south")}
+_SIDES = {
+    "north": ("west", "east"),
+    "south": ("west", "east"),
+    "east": ("north", "south"),
+    "west": ("north", "south"),
+}
 
 Cell = tuple[int, int]
 ToysState = tuple[Cell, Cell | str, tuple[Cell | str, ...]]
@@ -42,7 +48,10 @@ class Grid:
 
     def moves(self, cell: Cell) -> dict[str, list[tuple[float, Cell]]]:
         return {
-            name: [(1 - self.slip, self.ahead(cell, name)), *((self.slip / 2, self.ahead(cell, s)) for s in _SIDES[name])]
+            name: [
+                (1 - self.slip, self.ahead(cell, name)),
+                *((self.slip / 2, self.ahead(cell, s)) for s in _SIDES[name]),
+            ]
             for name in _MOVES
         }
 

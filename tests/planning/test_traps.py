@@ -147,7 +147,9 @@ def test_the_ship_template_orders_nothing_and_the_strict_one_does() -> None:
 
 def test_order_needs_memory() -> None:
     # One hub, two rooms: the action in the hub depends on what has been seen.
-    model = world({0: {"left": {1: 1.0}, "right": {2: 1.0}}, 1: {"back": {0: 1.0}}, 2: {"back": {0: 1.0}}}, a={1}, b={2})
+    model = world(
+        {0: {"left": {1: 1.0}, "right": {2: 1.0}}, 1: {"back": {0: 1.0}}, 2: {"back": {0: 1.0}}}, a={1}, b={2}
+    )
     result = solve(model, "F (a & F b)")
     assert result.policy is not None
     step = result.policy.step(0, result.initial_memory)
@@ -175,12 +177,22 @@ def test_a_state_without_actions_stays() -> None:
 
 def test_an_unsatisfiable_formula_is_an_answer() -> None:
     result = solve(world({0: {"go": {0: 1.0}}}, a={0}), "F (a & !a)")
-    assert (result.outcome, result.upper, result.policy, result.trajectory) == ("unsatisfiable", 0.0, None, None)
+    assert (result.outcome, result.upper, result.policy, result.trajectory) == (
+        "unsatisfiable",
+        0.0,
+        None,
+        None,
+    )
 
 
 def test_an_unreachable_goal_is_an_answer() -> None:
     result = solve(world({0: {"go": {0: 1.0}}, 1: {"go": {1: 1.0}}}, a={1}), "F a")
-    assert (result.outcome, result.upper, result.policy, result.trajectory) == ("unreachable", 0.0, None, None)
+    assert (result.outcome, result.upper, result.policy, result.trajectory) == (
+        "unreachable",
+        0.0,
+        None,
+        None,
+    )
 
 
 def test_a_formula_that_already_holds_takes_no_steps() -> None:

@@ -86,7 +86,7 @@ DOMAINS = [
     (f"{LIT}denies", "{y} is off", "functions/lit/denies", "no argument"),
     (f"{LIT}display/0", "on", "functions/lit/display/0", "exactly once"),
     (f"{D}functions/alike/display", ["{x}{y}"], "functions/alike/display/0", "a word between"),
-    (f"{D}define/bright/is", "lit(x)", "define/bright/is", "may not call themselves: bright -> lit -> bright"),
+    (f"{D}define/bright/is", "lit(x)", "functions/lit/is", "may not call themselves: bright -> lit -> bright"),
     (f"{FLIP}when", "robot.by", "actions/flip/when", "must be true or false"),
     (f"{FLIP}outcomes/0/probability", "true", "actions/flip/outcomes/0/probability", "must be number"),
     (f"{FLIP}outcomes/0/set", {"robot": "none"}, "actions/flip/outcomes/0/set/robot", "object.attribute"),
@@ -94,7 +94,7 @@ DOMAINS = [
     (f"{FLIP}outcomes/0/set", {"robot.bye": "none"}, "actions/flip/outcomes/0/set/robot.bye", "did you mean by"),
     (f"{FLIP}outcomes/0/set", {"robot.by": "high"}, "actions/flip/outcomes/0/set/robot.by", "never level"),
     (f"{FLIP}outcomes/0/set", {"robot.by": "x"}, "actions/flip/outcomes/0/set/robot.by", "nothing is called x"),
-    (f"{D}actions/press/outcomes/0/set", {"x.color": "red"}, "actions/press/outcomes/0/set/x.color", "no state attribute"),
+    (f"{D}actions/press/outcomes/0/set", {"x.color": "red"}, "actions/press/outcomes/0/set/x.color", "no state"),
     (f"{D}constraints/0", "robot.by", "constraints/0", "must be true or false"),
     (f"{D}constraints", ["true"] * (MAX_DECLARATIONS + 1), "constraints", "at most"),
     (f"{FLIP}outcomes/0/probability", "p + 0.1", "actions/flip/outcomes", "do not sum to 1"),
@@ -102,7 +102,7 @@ DOMAINS = [
     (f"{FLIP}outcomes/0/probability", "1 / (p - p)", "actions/flip/outcomes/0/probability", "not between 0 and 1"),
     (
         f"{FLIP}outcomes/0/probability",
-        "0.5 if robot.by == one else 0.6",
+        "0.5 if robot.by.color == red else 0.6",
         "actions/flip/outcomes",
         "do not sum to 1 when robot.by is two",
     ),
@@ -229,7 +229,7 @@ def test_definitions_that_double_do_not_blow_up():
 
 
 def test_nested_quantifiers_run_out_of_work():
-    nested = "any(a: lamp; any(b: lamp; any(c: lamp; any(d: lamp; a.level == b.level and c.level == d.level))))"
+    nested = "all(a: lamp; all(b: lamp; all(c: lamp; all(d: lamp; a.level == b.level and c.level == d.level))))"
     lamps = {f"l{i}": {"class": "lamp"} for i in range(60)}
     state = {"robot": {"by": "none"}} | {name: {"level": "low"} for name in lamps}
     data = changed(SWITCHES, ("objects", lamps), ("state", state), (f"{D}constraints/0", nested))
@@ -306,8 +306,8 @@ def test_anything_anywhere_is_loaded_or_refused(place, value):
     target[path[-1]] = value
     try:
         load_environment(data)
-    except WorldError as error:
-        assert error.places
+    except WorldError:
+        faults(data)
 
 
 @pytest.mark.parametrize("value", [None, [], "toys", 3, {}])

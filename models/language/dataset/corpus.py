@@ -122,7 +122,9 @@ def load_yaml(text: str, shape: type[_Shape]) -> _Shape:
         raise _wrong("", f"the data file is not YAML: {error}") from None
     except ValidationError as error:
         places = [Place("/" + "/".join(map(str, item["loc"])), item["msg"]) for item in error.errors()]
-        raise VocabularyError(f"the data file is wrong at {places[0].pointer}: {places[0].detail}", places=places) from None
+        raise VocabularyError(
+            f"the data file is wrong at {places[0].pointer}: {places[0].detail}", places=places
+        ) from None
 
 
 def slots(pattern: str) -> tuple[str, ...]:
@@ -164,10 +166,14 @@ def _check_tasks(corpus: Corpus) -> Iterable[Place]:
         pointer = f"/tasks/{task.name}"
         missing = [slot for slot in task.arguments if any(slot not in corpus.vocabulary[part] for part in Part)]
         if missing or len(set(task.arguments)) != len(task.arguments):
-            yield Place(f"{pointer}/arguments", f"the arguments of {task.name} must be distinct, each with a vocabulary")
+            yield Place(
+                f"{pointer}/arguments", f"the arguments of {task.name} must be distinct, each with a vocabulary"
+            )
         for where, pattern in [("ltl", task.ltl), *((f"wordings/{i}", w) for i, w in enumerate(task.wordings))]:
             if _slots_or_none(pattern) != set(task.arguments):
-                yield Place(f"{pointer}/{where}", f"{pattern!r} must hold exactly the slots {', '.join(task.arguments)}")
+                yield Place(
+                    f"{pointer}/{where}", f"{pattern!r} must hold exactly the slots {', '.join(task.arguments)}"
+                )
 
 
 def _slots_or_none(pattern: str) -> set[str] | None:

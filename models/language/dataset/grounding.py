@@ -18,7 +18,14 @@ _WORLD = {Domain.MANIPULATION: "toys", Domain.NAVIGATION: "navigation"}
 """The built-in domain of `models.world` that each dataset speaks about."""
 _ATTRIBUTES = frozenset({"color"})
 """Slots whose words are attribute values; those of all others are objects."""
-_CLASSES = {"object": "toy", "container": "box", "location": "cell", "first": "place", "second": "place", "third": "place"}
+_CLASSES = {
+    "object": "toy",
+    "container": "box",
+    "location": "cell",
+    "first": "place",
+    "second": "place",
+    "third": "place",
+}
 """The class of the objects of a slot."""
 
 

@@ -20,7 +20,11 @@ def _data() -> dict[str, Any]:
             "unseen": {"object": ["mug"], "color": ["black"]},
         },
         "tasks": {
-            "paint": {"arguments": ["object", "color"], "ltl": "F c({object}, {color})", "wordings": ["{color} {object}"]}
+            "paint": {
+                "arguments": ["object", "color"],
+                "ltl": "F c({object}, {color})",
+                "wordings": ["{color} {object}"],
+            }
         },
     }
 
@@ -90,9 +94,7 @@ def _phrases(part: Part) -> set[str]:
 
 
 def test_the_two_domains_together_keep_the_unseen_words_unseen() -> None:
-    seen, unseen = (
-        {word for phrase in _phrases(part) for word in phrase.split()} for part in (Part.SEEN, Part.UNSEEN)
-    )
+    seen, unseen = ({word for phrase in _phrases(part) for word in phrase.split()} for part in (Part.SEEN, Part.UNSEEN))
     wordings = {
         word.lower() for d in Domain for task in read_corpus(d).tasks for w in task.wordings for word in w.split()
     }

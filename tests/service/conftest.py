@@ -1,0 +1,68 @@
+"""One real server for the tests of the HTTP contract, and the one way to check a problem."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from benchmarks.server import serving
+
+PROBLEM = "urn:cqltl:problem:"
+MEMBERS = {"type", "title", "status", "detail", "errors", "line", "column", "caret", "choices"}
+
+Snapshot = Callable[[], dict[str, Any]]
+
+
+@pytest.fixture(scope="session")
+def client() -> Iterator[httpx.Client]:
+    """A client of a server with a new store, shared by the tests: each uses names of its own."""
+    with serving() as found:
+        yield found
+
+
+@pytest.fixture
+def snapshot(client: httpx.Client) -> Snapshot:
+    """Everything that requests can store by name, to compare before and after."""
+
+    def take() -> dict[str, Any]:
+        return {path: client.get(path, params={"limit": 200}).json() for path in ("/templates", "/environments")}
+
+    return take
+
+
+def check_problem(
+    response: httpx.Response, slug: str, status: int, pointers: list[str] | None = None
+) -> dict[str, Any]:
+    """Assert the canonical shape of a problem, its slug, status and pointers; the problem."""
+    assert response.headers["content-type"] == "application/problem+json", response.text
+    problem: dict[str, Any] = response.json()
+    assert (problem["type"], response.status_code) == (PROBLEM + slug, status), problem
+    assert problem["status"] == status
+    assert problem["title"] == slug.replace("-", " ")
+    assert problem["detail"]
+    assert len(response.content) < 20_000, "a problem must not echo the request"
+    assert set(problem) <= MEMBERS
+    found = [place["pointer"] for place in problem["errors"]]
+    assert all(pointer == "" or pointer.startswith("/") for pointer in found)
+    if pointers is not None:
+        assert found == pointers, problem
+    return problem
+
+
+def run_cli(*arguments: str, data: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run `cqltl` with a data folder."""
+    return subprocess.run(
+        [sys.executable, "-m", "service", *arguments],
+        env={**os.environ, "CQLTL_DATA_DIR": str(data), "CQLTL_DATABASE_URL": "", **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
