@@ -16,9 +16,12 @@ import httpx
 @contextmanager
 def serving(folder: Path | None = None, **environment: str) -> Iterator[httpx.Client]:
     """A client of a new server with its store in `folder`, by default a new one; it stops when the context ends."""
-    with tempfile.TemporaryDirectory() as fresh, started(folder or Path(fresh), **environment) as process:
-        with httpx.Client(base_url=address(process), timeout=300) as client:
-            yield client
+    with (
+        tempfile.TemporaryDirectory() as fresh,
+        started(folder or Path(fresh), **environment) as process,
+        httpx.Client(base_url=address(process), timeout=300) as client,
+    ):
+        yield client
 
 
 @contextmanager

@@ -31,14 +31,17 @@ class State(TypedDict):
     services: Services
 
 
-def create_app(settings: Settings) -> FastAPI:
-    """The app; its lifespan migrates the store, starts the workers and loads the translators."""
+def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
+    """The app; its lifespan migrates the store, starts the workers and loads the translators.
+
+    `warm` starts the worker processes at once, so that the first plan is as fast as the others.
+    """
     app = FastAPI(
         title="cqltl",
         summary="English robot commands to plans: contextual queries, templated LTL, policies.",
         version=version("cqltl"),
         license_info={"name": "GPL-3.0-or-later", "identifier": "GPL-3.0-or-later"},
-        lifespan=partial(_lifespan, settings),
+        lifespan=partial(_lifespan, settings, warm),
         separate_input_output_schemas=False,
     )
     install(app)
@@ -50,10 +53,10 @@ def create_app(settings: Settings) -> FastAPI:
 
 
 @asynccontextmanager
-async def _lifespan(settings: Settings, _app: FastAPI) -> AsyncIterator[State]:
+async def _lifespan(settings: Settings, warm: bool, _app: FastAPI) -> AsyncIterator[State]:
     torch.set_num_threads(1)  # the network is small: a second thread makes a translation slower
     workers = Workers(planners=settings.workers, max_waiting=settings.max_waiting)
-    await run_sync(workers.start)
+    await run_sync(partial(workers.start, warm=warm))
     store = None
     try:
         await run_sync(migrate, settings.url)

@@ -36,5 +36,5 @@ async def _post_here(path: str, body: dict[str, Any], settings: Settings) -> htt
     from service.app import create_app
     from service.asgi import running
 
-    async with running(create_app(settings)) as client:
+    async with running(create_app(settings, warm=False)) as client:
         return await client.post(path, json=body, timeout=TIMEOUT_S)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from math import ceil
 
 from models.language.batch import SourceBatch, TargetBatch
 from models.language.dataset import Example
@@ -58,6 +59,11 @@ def to_batch(
     ]
     targets = [vocabulary.target(item.answer, source) for item, source in zip(items, sources, strict=True)]
     return SourceBatch.of(sources, vocabulary), TargetBatch.of(targets, vocabulary)
+
+
+def at_least(count: int, group: Sequence[Example]) -> list[Example]:
+    """The examples of a task class, repeated as often as it takes to have at least `count`."""
+    return list(group) * max(1, ceil(count / len(group)))
 
 
 def batches(items: Sequence[Item], size: int, generator: random.Random) -> Iterator[list[Item]]:

@@ -95,7 +95,6 @@ class CopyNetTranslator:
     @torch.inference_mode()
     def hypotheses(self, source: Source) -> tuple[Hypothesis, ...]:
         """The network's best output sequences as extended numbers, well-formed or not, best first."""
-        self.network.eval()
         memory, state = self.network.encode(SourceBatch.of([source], self.vocabulary))
 
         def step(last: Tensor, state: State) -> tuple[Tensor, State]:

@@ -28,14 +28,6 @@ class FormulaSyntaxError(CqltlError):
         self.column = column
         self.caret = caret
 
-    def __reduce__(self) -> tuple[object, ...]:
-        # Errors travel from worker processes; the default would call the class without its keywords.
-        return _syntax_error, (self.detail, self.line, self.column, self.caret)
-
-
-def _syntax_error(detail: str, line: int, column: int, caret: str) -> FormulaSyntaxError:
-    return FormulaSyntaxError(detail, line=line, column=column, caret=caret)
-
 
 class FormulaTooLargeError(CqltlError):
     """The formula or its automaton is beyond a limit."""

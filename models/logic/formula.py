@@ -200,10 +200,14 @@ def _measure(node: Unary | Binary | Nary, operands: tuple[Formula, ...]) -> None
     if depth > MAX_DEPTH:
         raise FormulaTooLargeError(f"the formula is nested more than {MAX_DEPTH} deep")
     if size > MAX_SIZE:
-        raise FormulaTooLargeError(f"the formula has more than {MAX_SIZE} operators and atoms")
+        raise _too_large()
     object.__setattr__(node, "depth", depth)
     object.__setattr__(node, "size", size)
     object.__setattr__(node, "digest", hash((node.op, operands)))
+
+
+def _too_large() -> FormulaTooLargeError:
+    return FormulaTooLargeError(f"the formula has more than {MAX_SIZE} operators and atoms")
 
 
 def nary(op: Op, *operands: Formula) -> Formula:
@@ -211,6 +215,8 @@ def nary(op: Op, *operands: Formula) -> Formula:
     flat: list[Formula] = []
     for operand in operands:
         flat.extend(operand.operands if isinstance(operand, Nary) and operand.op is op else (operand,))
+        if len(flat) > MAX_SIZE:
+            raise _too_large()
     if not flat:
         return TRUE if op is Op.AND else FALSE
     return flat[0] if len(flat) == 1 else Nary(op, tuple(flat))

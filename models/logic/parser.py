@@ -71,8 +71,7 @@ def parse(text: str, *, dialect: Dialect | None = None) -> Formula:
 
 
 def _read(text: str, start: str) -> Formula:
-    undelimited = _without_delimiters(text) if start == "infix" else text
-    cursor = _lark().parse_interactive(undelimited, start=start)
+    cursor = _lark().parse_interactive(text, start=start)
     reading = Reading(text, prefix=start == "prefix")
     try:
         for token in cursor.iter_parse():  # yields each token before the parser takes it
@@ -85,20 +84,6 @@ def _read(text: str, start: str) -> Formula:
     except _BadName as error:
         refuse(text, error.token.start_pos or 0, str(error))
     return _close(result)
-
-
-_DELIMITERS = (("$$", "$$"), ("$", "$"), (r"\(", r"\)"), (r"\[", r"\]"))
-
-
-def _without_delimiters(text: str) -> str:
-    """The text with the delimiters of LaTeX's math mode blanked out, so that positions stay true."""
-    stripped = text.strip()
-    for opening, closing in _DELIMITERS:
-        if len(stripped) > len(opening + closing) and stripped.startswith(opening) and stripped.endswith(closing):
-            begin, end = text.index(opening), text.rindex(closing)
-            blank = " " * len(opening)
-            return text[:begin] + blank + text[begin + len(opening) : end] + blank + text[end + len(closing) :]
-    return text
 
 
 class _BadName(Exception):

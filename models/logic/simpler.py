@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from models.logic.formula import FALSE, TRUE, Constant, Formula, Nary, build, children, nary
+from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Nary, build, children, nary
 from models.logic.spot import equivalent, rewrite
 
 _MOST_COMPARISONS = 400  # a comparison of small formulas takes well under a millisecond
@@ -59,6 +59,7 @@ def _simpler_nodes(node: Formula) -> Iterator[Formula]:
 def _put_back(part: Formula, path: tuple[tuple[Formula, int], ...]) -> Formula:
     """The formula in which `part` stands where `path`, parents outermost first, leads."""
     for parent, index in reversed(path):
-        if not isinstance(parent, Constant) and (parts := children(parent)):
+        if not isinstance(parent, (Atom, Constant)):
+            parts = children(parent)
             part = build(parent.op, (*parts[:index], part, *parts[index + 1 :]))
     return part

@@ -10,10 +10,7 @@ from lark import Token
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from models.logic.errors import FormulaSyntaxError
-
-CARET_WIDTH = 78
-"""Longest line shown over a caret; of a longer one a window around the column."""
-_ECHO = 24  # longest piece of the text repeated in a sentence
+from models.source import locate, quoted
 
 _OPERAND = "a proposition or an operator before one"
 _FUNCTIONS = frozenset({"NAME", "FONT_NAME", "GREEK", "QUOTED", "TEXT"})
@@ -59,9 +56,9 @@ class Reading:
 
 def refuse(text: str, position: int, detail: str) -> NoReturn:
     """Raise FormulaSyntaxError at a 0-based position of the text."""
-    line, column = _place(text, position)
+    at = locate(text, position)
     raise FormulaSyntaxError(
-        f"line {line}, column {column}: {detail}", line=line, column=column, caret=_caret(text, position)
+        f"line {at.line}, column {at.column}: {detail}", line=at.line, column=at.column, caret=at.caret
     ) from None
 
 
@@ -102,12 +99,6 @@ def _found(text: str, position: int) -> str:
     return quoted(word.group() if word else text[position])
 
 
-def quoted(piece: str) -> str:
-    """A piece of the caller's text for use in a sentence: short, on one line, in back quotes."""
-    shown = piece if len(piece) <= _ECHO else piece[: _ECHO - 3] + "..."
-    return "`" + "".join(c if c.isprintable() else f"U+{ord(c):04X}" for c in shown) + "`"
-
-
 def _hint(reading: Reading, position: int) -> str:
     rest = reading.text[position : position + 40]
     if not rest.strip():
@@ -121,8 +112,8 @@ def _unclosed(reading: Reading) -> str:
     if not reading.open_brackets:
         return ""
     opened = reading.open_brackets[-1]
-    line, column = _place(reading.text, opened.position)
-    return f"the `{opened.text}` at line {line}, column {column} is never closed"
+    at = locate(reading.text, opened.position)
+    return f"the `{opened.text}` at line {at.line}, column {at.column} is never closed"
 
 
 def _stray(reading: Reading, closing: str) -> str:
@@ -131,8 +122,8 @@ def _stray(reading: Reading, closing: str) -> str:
     opened = reading.open_brackets[-1]
     if _CLOSING[opened.text] == closing:
         return ""
-    line, column = _place(reading.text, opened.position)
-    return f"the bracket open here is the `{opened.text}` at line {line}, column {column}"
+    at = locate(reading.text, opened.position)
+    return f"the bracket open here is the `{opened.text}` at line {at.line}, column {at.column}"
 
 
 def _word_hint(reading: Reading, rest: str) -> str:
@@ -169,20 +160,3 @@ def _name_hint(reading: Reading, position: int, sign: str) -> str:
     if after_name and (touching or (in_arguments and (sign.isalnum() or not sign.isascii()))):
         return "a name with other characters than letters, digits and _ is quoted"
     return ""
-
-
-def _place(text: str, position: int) -> tuple[int, int]:
-    start = text.rfind("\n", 0, position) + 1
-    return text.count("\n", 0, position) + 1, position - start + 1
-
-
-def _caret(text: str, position: int) -> str:
-    """The line of `position` and a caret under it, tabs shown as one space so that the two stay in step."""
-    start = text.rfind("\n", 0, position) + 1
-    end = text.find("\n", position)
-    end = len(text) if end < 0 else end
-    left = max(start, min(position - CARET_WIDTH // 2, end - CARET_WIDTH))
-    right = min(end, left + CARET_WIDTH)
-    before, after = "..." if left > start else "", "..." if right < end else ""
-    window = "".join(c if c.isprintable() else " " for c in text[left:right])
-    return f"{before}{window}{after}".rstrip() + "\n" + " " * (len(before) + position - left) + "^"

@@ -23,8 +23,9 @@ from models.planning.errors import DeviceUnavailableError
 from models.planning.options import Device
 from models.planning.ragged import offsets, spans
 
-THREADS_FROM = 200_000
-"""Outcomes from which a sweep is spread over all cores; below, starting threads costs more than it saves."""
+THREADS_FROM = 4_000_000
+"""Outcomes from which a sweep is spread over all cores. A sweep waits for memory more than for arithmetic: two cores
+gain a fifth when they are idle, and lose half when they are not, since every operation waits for the slower one."""
 
 DEVICE_FROM = 1_000_000
 """Outcomes from which device "auto" moves to a CUDA device."""

@@ -7,6 +7,9 @@ from typing import Literal, Protocol
 
 Device = Literal["auto", "cpu", "cuda"]
 
+MOST_BYTES = 64 * 2**30
+"""The largest `max_bytes`: a model that fits has fewer than 2^31 outcomes, which are numbered in 32 bits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Options:
@@ -29,6 +32,8 @@ class Options:
             raise ValueError("epsilon lies between 0 and 1")
         if min(self.max_states, self.max_bytes, self.max_sweeps) < 1:
             raise ValueError("limits are at least 1")
+        if self.max_bytes > MOST_BYTES:
+            raise ValueError(f"max_bytes is at most {MOST_BYTES}")
         if self.device not in ("auto", "cpu", "cuda"):
             raise ValueError("device is auto, cpu or cuda")
 

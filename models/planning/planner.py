@@ -104,7 +104,9 @@ def plan(
         initial_state=start,
         initial_memory=automaton.initial,
         policy=_policy(world, automaton, product, steps, attained, start),
-        trajectory=most_likely_run(compiled, product, steps.chosen, state=start, memory=automaton.initial),
+        trajectory=most_likely_run(
+            compiled, product, steps.chosen, world.actions, state=start, memory=automaton.initial
+        ),
         sizes=_sizes(world, automaton),
     )
 
@@ -152,8 +154,8 @@ def _optimise(
     bound within epsilon.
     """
     best: tuple[Steps, Attained] | None = None
+    least = np.inf
     for slack in SLACKS:
-        exact = probability.gap == 0.0  # then nothing is read off numbers, and stricter reading changes nothing
         kept = conserving(product, qualities, probability, max(slack, 0.0 if best else 2 * probability.gap))
         steps = fewest_steps(product, graph, qualities, kept, node, options=options, progress=progress)
         if steps is None:
@@ -162,8 +164,9 @@ def _optimise(
             product, qualities, probability, steps, node, options=options, progress=progress
         )
         shortfall = float((probability.lower - attained.lower).max())
-        best = steps, attained
-        if exact or shortfall <= options.epsilon:
+        if shortfall < least:
+            best, least = (steps, attained), shortfall
+        if shortfall <= options.epsilon:
             break
     if best is None:
         raise AssertionError("the choices of maximal probability always decide the outcome")

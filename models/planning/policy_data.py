@@ -102,18 +102,15 @@ def to_json(policy: Policy) -> dict[str, Any]:
     the state is read (start with `initial.memory`):
 
     - `action`: index into `actions`; -1 nothing to do (decided, or the state is invalid); -2 no action is
-    enabled, let
-      one step pass;
+      enabled, let one step pass;
     - `next_memory`: the memory to use at the next state; -1 the state is invalid. Done where
-    `accepted[next_memory]` is 1;
+      `accepted[next_memory]` is 1;
     - `probability` of satisfying the formula and `expected_steps` until the outcome is decided, under this
-    policy,
-      rounded to 9 decimals (-1 steps: no bound is known).
+      policy, rounded to 9 decimals. Probability 0 with a valid state: it cannot be satisfied any more.
     """
     header = _header(policy)
     for variable, stride in zip(header["variables"], codec.strides(policy.variables), strict=True):
         variable["stride"] = stride
-    steps = np.where(np.isfinite(policy.expected_steps), policy.expected_steps, -1.0)
     return {
         **header,
         "states": policy.states,
@@ -121,5 +118,5 @@ def to_json(policy: Policy) -> dict[str, Any]:
         "action": policy.action.ravel().tolist(),
         "next_memory": policy.next_memory.ravel().tolist(),
         "probability": np.round(policy.probability, 9).ravel().tolist(),
-        "expected_steps": np.round(steps, 9).ravel().tolist(),
+        "expected_steps": np.round(policy.expected_steps, 9).ravel().tolist(),
     }

@@ -104,17 +104,14 @@ def iterate_intervals(
     with threads(operator.outcomes):
         for sweep in range(1, options.max_sweeps + 1):
             previous, gap = gap, _narrow(operator, lower, upper)
+            stuck = gap == previous and sweep % DIRECT_AFTER == 0  # as close as floating point gets
+            if gap > precision and sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+                gap, stuck = _solve_directly(operator, lower, upper), True
             if progress is not no_progress:
                 low, high = (float(lower[place]), float(upper[place])) if place >= 0 else (1.0, 1.0)
                 progress("probability", sweep, low, high, choices.unknowns)
-            if gap <= precision:
+            if gap <= precision or (stuck and gap <= options.epsilon):
                 break
-            if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-                _solve_directly(operator, lower, upper)
-                if float((upper - lower).max()) <= options.epsilon:
-                    break
-            if gap == previous and gap <= options.epsilon and sweep % DIRECT_AFTER == 0:
-                break  # as close as floating point gets
     return operator.numpy(lower), operator.numpy(upper)
 
 
@@ -129,9 +126,10 @@ def _narrow(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> floa
     return float(torch.sub(upper, lower, out=out).max())
 
 
-def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> None:
-    """Tighten both bounds in place by the direct solver's, where it has any."""
+def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> float:
+    """Tighten both bounds in place by the direct solver's, where it has any; returns the largest gap."""
     bounds = probability_bounds(operator.choices, operator.greedy(lower, 0.0)[0])
     if bounds is not None:
         torch.maximum(lower, operator.vector(bounds[0]), out=lower)
         torch.minimum(upper, operator.vector(bounds[1]), out=upper)
+    return float((upper - lower).max())

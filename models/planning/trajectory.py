@@ -16,12 +16,12 @@ MAX_LENGTH = 10_000
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryStep:
-    """A state, the memory before its label is read, and the action done there (an index; None where the run
-    ends or the world enables none)."""
+    """A state, the memory before its label is read, and the action done there (None where the run ends or the
+    world enables none)."""
 
     state: int
     memory: int
-    action: int | None
+    action: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +33,18 @@ class Trajectory:
 
 
 def most_likely_run(
-    world: CompiledWorld, product: Product, chosen: NDArray[np.int32], *, state: int, memory: int
+    world: CompiledWorld,
+    product: Product,
+    chosen: NDArray[np.int32],
+    names: tuple[str, ...],
+    *,
+    state: int,
+    memory: int,
 ) -> Trajectory:
     """At every step the most probable successor that the run has not been at yet; the lowest index on ties.
 
-    A slip that leaves everything as it was is thus passed over. The run ends where `chosen` ([n], by node)
-    has no choice, when only visited nodes follow, or after MAX_LENGTH steps.
+    A slip that leaves everything as it was is thus passed over. The run ends where `chosen` ([n], by node) has no
+    choice, when only visited nodes follow, or after MAX_LENGTH steps. `names` are the world's actions.
     """
     steps: list[TrajectoryStep] = []
     visited: set[int] = set()
@@ -49,7 +55,7 @@ def most_likely_run(
             return Trajectory((*steps, TrajectoryStep(state, memory, None)), complete=True)
         visited.add(node)
         action = int(product.action[chosen[node]])
-        steps.append(TrajectoryStep(state, memory, action if action >= 0 else None))
+        steps.append(TrajectoryStep(state, memory, names[action] if action >= 0 else None))
         following = [
             (-chance, entered)
             for chance, entered in _outcomes(world, state, action)

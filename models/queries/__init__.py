@@ -19,7 +19,7 @@ from models.queries.errors import (
 )
 from models.queries.learning import Example, learn
 from models.queries.lifting import LiftedFormula, lift, resolve_grounded
-from models.queries.review import review, simplest_equivalent
+from models.queries.review import review
 from models.queries.template import Binding, GroundedTask, Template, evaluate, parameter_kinds
 
 __all__ = [
@@ -44,5 +44,4 @@ __all__ = [
     "parse_query",
     "resolve_grounded",
     "review",
-    "simplest_equivalent",
 ]

@@ -8,9 +8,10 @@ from functools import cache
 from importlib.resources import files
 
 from lark import Lark, Token, Transformer
-from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from models.queries.errors import QuerySyntaxError
+from models.source import locate, quoted
 
 MAX_QUERY_TEXT = 4_096
 """Longest text of a contextual query, in characters."""
@@ -33,7 +34,7 @@ class ContextualQuery:
 
     def __post_init__(self) -> None:
         if not _NAME.fullmatch(self.task):
-            raise QuerySyntaxError(f"the task {_shown(self.task)} is not a name (letters, digits and _)")
+            raise QuerySyntaxError(f"the task {quoted(self.task)} is not a name (letters, digits and _)")
         if len(self.arguments) > MAX_ARGUMENTS:
             raise QuerySyntaxError(f"a contextual query has at most {MAX_ARGUMENTS} arguments")
         for position, phrase in enumerate(self.arguments, start=1):
@@ -90,19 +91,11 @@ def _print_phrase(phrase: str) -> str:
 
 
 def _syntax_error(text: str, error: UnexpectedInput) -> QuerySyntaxError:
-    end = isinstance(error, UnexpectedEOF) or (isinstance(getattr(error, "token", None), Token) and not error.token)
-    position = len(text) if end else (error.pos_in_stream or 0)
-    line = text.count("\n", 0, position) + 1
-    start = text.rfind("\n", 0, position) + 1
-    column = position - start + 1
-    source = text[start:].split("\n", 1)[0]
-    left = max(0, column - 61)
-    caret = f"{source[left : left + 120]}\n{' ' * (column - 1 - left)}^"
-    found = "the end" if position >= len(text) else _shown(text[position])
-    hint = "a quotation mark is not closed" if isinstance(error, UnexpectedCharacters) and found == "'\"'" else ""
-    detail = f"expected a contextual query such as ship(cylinder, box, bedroom); found {found} at line {line}, column {column}"
-    return QuerySyntaxError(f"{detail}: {hint}" if hint else detail, line=line, column=column, caret=caret)
-
-
-def _shown(text: str) -> str:
-    return repr(text if len(text) <= 40 else text[:40] + "…")
+    offset: int = getattr(error, "pos_in_stream", None) or 0
+    if isinstance(error, UnexpectedToken) and error.token.type == "$END":
+        offset = len(text)
+    at = locate(text, offset)
+    found = quoted(text[offset]) if offset < len(text) else "the end"
+    detail = f"line {at.line}, column {at.column}: expected a contextual query such as ship(cylinder, box, bedroom)"
+    hint = "; a quotation mark is not closed" if isinstance(error, UnexpectedCharacters) and found == '`"`' else ""
+    return QuerySyntaxError(f"{detail}, found {found}{hint}", line=at.line, column=at.column, caret=at.caret)

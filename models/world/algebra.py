@@ -22,6 +22,8 @@ from models.world.limits import MAX_TABLE, MAX_WORK
 Array = NDArray[Any]
 Operation = Callable[..., Any]
 _OVERHEAD = 256  # what one array operation costs, in entries
+_LOOKUP = 32  # what finding a known value costs
+_REMEMBERED = 16_384
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +120,7 @@ class Algebra:
     def __init__(self, radix: Sequence[int]) -> None:
         self.radix = tuple(radix)
         self.spent = 0
+        self._known: dict[tuple[Operation | Value, ...], Value] = {}
 
     def entries(self, scope: Iterable[int]) -> int:
         """Combinations of the values of some variables."""
@@ -128,7 +131,24 @@ class Algebra:
         return Table((position,), values) if self.radix[position] > 1 else Table((), values.reshape(()))
 
     def combine(self, operation: Operation, *parts: Value) -> Value:
-        """`operation`, which must broadcast, applied to the parts: a table when it fits."""
+        """`operation`, which must broadcast, applied to the parts: a table when it fits.
+
+        The same operation on the same parts gives the same value, computed once.
+        """
+        key = (operation, *parts)
+        if key in self._known:
+            self.spend(_LOOKUP)
+            return self._known[key]
+        value = self._known[key] = self._combine(operation, parts)
+        return value
+
+    def renew(self) -> None:
+        """Starts a new count of work, and forgets what is known when that has become much."""
+        self.spent = 0
+        if len(self._known) > _REMEMBERED:
+            self._known.clear()
+
+    def _combine(self, operation: Operation, parts: tuple[Value, ...]) -> Value:
         scopes = {part.scope for part in parts if part.scope}
         scope = tuple(sorted({v for each in scopes for v in each}))
         size = self.entries(scope)

@@ -65,7 +65,7 @@ def navigation_spec(
     """A navigation environment: landmarks by column and row from 1 at the north-west (default: two opposite
     corners).
 
-    Other cells are called `cell_{column}_{row}`. The robot starts in the first landmark, or in `start`.
+    Other cells are called `place_{column}_{row}`. The robot starts in the first landmark, or in `start`.
     """
     places = dict(landmarks) if landmarks is not None else {"home": (1, 1), "goal": (columns, rows)}
     marks = {place: mark for mark, place in zip(_CHARACTERS, places.values(), strict=False)}
@@ -79,7 +79,7 @@ def navigation_spec(
         "domain": "navigation",
         "parameters": {"slip": slip},
         "grid": {
-            "class": "cell",
+            "class": "place",
             "map": lines,
             "names": {marks[place]: landmark for landmark, place in places.items()},
             "walls": [list(wall) for wall in walls],

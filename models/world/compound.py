@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from models.logic.formula import Atom, Name
 from models.world.domain import Function
@@ -30,6 +31,28 @@ def readings(text: str, vocabulary: Vocabulary) -> tuple[Atom, ...]:
     return tuple(found)
 
 
+def unknown_part(text: str, vocabulary: Vocabulary) -> tuple[str, Function] | None:
+    """The part of a compound name that names nothing, where a pattern of one or two arguments fits otherwise."""
+    if len(text) > _LONGEST:
+        return None
+    plain = _plain(text)
+    for function in vocabulary.functions.values():
+        kinds = {parameter.name: parameter.kinds for parameter in function.parameters}
+        for pattern in function.display:
+            literals, holes = _HOLE.split(pattern)[::2], _HOLE.split(pattern)[1::2]
+            if not 1 <= len(holes) <= 2:
+                continue
+            match = re.fullmatch("(.+)".join(re.escape(_plain_literal(literal)) for literal in literals), plain)
+            if match is None:
+                continue
+            spelled = [{name for name, _ in _spellings(vocabulary.symbols(*kinds[hole]), vocabulary)} for hole in holes]
+            unknown = [part for part, known in zip(match.groups(), spelled, strict=True) if part not in known]
+            if len(unknown) == 1:
+                return unknown[0], function
+    return None
+
+
+@lru_cache(maxsize=32_768)
 def _plain(text: str) -> str:
     return re.sub(r"[\s_]+", "_", text.strip()).casefold()
 
@@ -68,6 +91,4 @@ def _plain_literal(literal: str) -> str:
 
 
 def _spellings(symbols: tuple[Symbol, ...], vocabulary: Vocabulary) -> list[tuple[str, Symbol]]:
-    """Names before synonyms, so that a name's reading comes first."""
-    names = [(_plain(symbol.name), symbol) for symbol in symbols]
-    return names + [(_plain(other), symbol) for symbol in symbols for other in vocabulary.synonyms.get(symbol, ())]
+    return [(_plain(name), symbol) for symbol in symbols for name in vocabulary.names(symbol)]

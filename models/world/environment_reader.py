@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -160,7 +161,9 @@ class _Reader:
                     )
                     continue
                 kinds = declared[attribute]
-                allowed = ranges.setdefault(kinds, self._range(kinds))
+                if kinds not in ranges:
+                    ranges[kinds] = self._range(kinds)
+                allowed = ranges[kinds]
                 if value not in allowed and value != NONE:
                     self.report.add(path, f"{attribute} must be {listing(kinds)}, not {value}{hint(value, allowed)}")
                 elif found := allowed.get(value):
@@ -182,10 +185,11 @@ class _Reader:
 
     def _distinct(self, kinds: tuple[str, ...], attribute: str) -> tuple[Symbol | None, ...]:
         named = self._range(kinds)
-        for name in named:
-            homonyms = [kind for kind in kinds if Symbol(kind, name) in self.members.get(kind, ())]
-            if len(homonyms) > 1:
-                self.report.add(["objects"], f"{attribute} may be two things called {name}: {listing(homonyms, 'and')}")
+        owners = Counter(symbol.name for kind in kinds for symbol in self.members.get(kind, ()))
+        for name, count in owners.items():
+            if count > 1:
+                homonyms = listing((kind for kind in kinds if Symbol(kind, name) in self.members.get(kind, ())), "and")
+                self.report.add(["objects"], f"{attribute} may be two things called {name}: {homonyms}")
         return tuple(named.values())
 
     def _initial(self, variables: tuple[StateAttribute, ...]) -> list[int]:
@@ -200,17 +204,21 @@ class _Reader:
                 if attribute not in known.get(name, {}):
                     fix = hint(attribute, known.get(name, {}))
                     self.report.add(["state", name, attribute], f"{name} has no state attribute {attribute}{fix}")
-        return [self._digit(variable) for variable in variables]
+        ranges = {id(variable.values): variable.values for variable in variables}  # few tuples, shared by many
+        digits = {
+            key: {value.name if value else NONE: digit for digit, value in enumerate(values)}
+            for key, values in ranges.items()
+        }
+        return [self._digit(variable, digits[id(variable.values)]) for variable in variables]
 
-    def _digit(self, variable: StateAttribute) -> int:
+    def _digit(self, variable: StateAttribute, digits: Mapping[str, int]) -> int:
         owner, attribute = variable.owner.name, variable.attribute
         given = self.spec.state.get(owner, {}).get(attribute)
-        names = [value.name if value else NONE for value in variable.values]
-        if given in names:
-            return names.index(given)
+        if given is not None and given in digits:
+            return digits[given]
         if given is not None:
             self.report.add(
-                ["state", owner, attribute], f"{attribute} of {owner} cannot be {given}{hint(given, names)}"
+                ["state", owner, attribute], f"{attribute} of {owner} cannot be {given}{hint(given, digits)}"
             )
         elif owner in self.spec.state:
             self.report.add(["state", owner], f"the initial value of {attribute} of {owner} is missing")

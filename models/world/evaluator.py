@@ -12,7 +12,7 @@ from typing import Any, assert_never
 import numpy as np
 from numpy.typing import NDArray
 
-from models.world.algebra import Algebra, Array, Combined, Table, Value
+from models.world.algebra import Algebra, Array, Combined, Operation, Table, Value
 from models.world.checker import qualified_value
 from models.world.expression import (
     Access,
@@ -44,7 +44,8 @@ _COMPARISONS = {
     ">": operator.gt,
     ">=": operator.ge,
 }
-_ARITHMETIC: dict[str, Any] = {"+": np.add, "-": np.subtract, "*": np.multiply}
+_ARITHMETIC: dict[str, Any] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide}
+_REMEMBERED = 4_096
 TRUE = Table((), np.array(True))
 FALSE = Table((), np.array(False))
 
@@ -81,6 +82,13 @@ class Evaluator:
         other._variables = [changes.get(position, value) for position, value in enumerate(self._variables)]
         other._calls = {}
         return other
+
+    def renew(self) -> None:
+        """Starts a new count of work, and forgets what is remembered when that has become much."""
+        self.algebra.renew()
+        if len(self._calls) > _REMEMBERED:
+            self._calls.clear()
+            self._reach.clear()
 
     def symbol(self, symbol: Symbol) -> Value:
         """The constant function of a symbol."""
@@ -218,9 +226,7 @@ class Evaluator:
 
     def _arithmetic(self, expression: Arithmetic, scope: Scope) -> Value:
         left, right = self.evaluate(expression.left, scope), self.evaluate(expression.right, scope)
-        if expression.operator != "/":
-            return self.algebra.combine(_ARITHMETIC[expression.operator], left, right)
-        return self.algebra.combine(_divide, left, right)
+        return self.algebra.combine(_QUIET[expression.operator], left, right)
 
     def _conditional(self, expression: Conditional, scope: Scope) -> Value:
         condition = self.evaluate(expression.condition, scope)
@@ -262,6 +268,14 @@ def _count(truth: Array) -> Array:
     return np.asarray(truth).astype(np.int16)
 
 
-def _divide(left: Array, right: Array) -> Array:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.true_divide(left, right))
+def _quiet(ufunc: Any) -> Operation:
+    """The operation without warnings: where a number is not finite the checks of probabilities say so."""
+
+    def apply(left: Array, right: Array) -> Any:
+        with np.errstate(all="ignore"):
+            return ufunc(left, right)
+
+    return apply
+
+
+_QUIET = {name: _quiet(ufunc) for name, ufunc in _ARITHMETIC.items()}

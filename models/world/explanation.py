@@ -45,23 +45,18 @@ class _Speaker:
                 return "anything is allowed" if value else "the impossible happens"
             case Atom():
                 return self._atom(formula)
-            case Unary():
-                return self._unary(formula)
+            case Unary(op=Op.NOT, operand=operand):
+                return self._denial(operand)
+            case Unary(op=Op.NEXT):
+                return self._next(formula)
+            case Unary(op=Op.FINALLY, operand=operand):
+                return self._finally(operand)
+            case Unary(operand=operand):
+                return self._globally(operand)
             case Binary():
                 return self._binary(formula)
             case Nary():
                 return self._nary(formula)
-
-    def _unary(self, formula: Unary) -> str:
-        match formula.op:
-            case Op.NOT:
-                return self._denial(formula.operand)
-            case Op.NEXT:
-                return self._next(formula)
-            case Op.FINALLY:
-                return self._finally(formula.operand)
-            case _:
-                return self._globally(formula.operand)
 
     def _denial(self, operand: Formula) -> str:
         match operand:

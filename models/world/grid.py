@@ -61,7 +61,7 @@ def _cells(spec: GridSpec, report: Report) -> dict[str, tuple[int, int]]:
                 cells[name] = (x, y)
             used |= {character} - {UNNAMED}
     for character in spec.names:
-        if character not in used:
+        if character not in used | {BLOCKED, UNNAMED}:
             report.add(["grid", "names", character], f"{character!r} is not on the map")
     if not cells:
         report.add(["grid", "map"], "the map has no cell")

@@ -174,7 +174,7 @@ def _describe(content: list[str], symbol: Symbol, vocabulary: Vocabulary) -> Can
     rest = {word for word in content if word not in explained}
     nouns = rest & {_stems(word)[-1] for word in vocabulary.class_words.get(symbol.kind, ()) if _stems(word)}
     rest -= nouns | _GENERIC
-    names = [_stems(name) for name in (symbol.name, *vocabulary.synonyms.get(symbol, ()))]
+    names = [_stems(name) for name in vocabulary.names(symbol)]
     named = any(name and name[-1] in content and rest <= set(name) for name in names)
     if (rest and not named) or not (values or nouns or named):
         return None

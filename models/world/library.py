@@ -26,9 +26,9 @@ def builtin_domains() -> tuple[str, ...]:
 def builtin_domain(name: str) -> Domain:
     """A built-in domain, checked. Raises WorldError when its file is wrong."""
     data = yaml.safe_load((_HERE / "domains" / f"{name}.yaml").read_text(encoding="utf-8"))
-    report = Report()
+    report = Report(what=f"the domain {name}")
     domain = read_domain(DOMAIN.validate_python(data), report)
-    report.close(f"the domain {name}")
+    report.close()
     assert domain is not None
     return domain
 

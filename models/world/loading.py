@@ -16,7 +16,7 @@ from models.world.environment_reader import read_environment
 from models.world.explicit import ExplicitWorld, read_explicit
 from models.world.expression import ExpressionError
 from models.world.library import builtin_domain, builtin_domains
-from models.world.names import hint
+from models.world.names import clipped, hint
 from models.world.oomdp import OomdpWorld
 from models.world.report import Report
 from models.world.specs import ENVIRONMENT, ExplicitSpec, OomdpSpec
@@ -31,10 +31,10 @@ def load_environment(data: Mapping[str, Any]) -> Environment:
     """
     report = Report()
     spec = _shape(data, report)
-    report.close("the environment")
+    report.close()
     assert spec is not None
     loaded = _explicit(spec, report) if isinstance(spec, ExplicitSpec) else _oomdp(spec, report)
-    report.close("the environment")
+    report.close()
     assert loaded is not None
     return loaded
 
@@ -50,7 +50,7 @@ def _shape(data: Mapping[str, Any], report: Report) -> OomdpSpec | ExplicitSpec 
 
 
 def _sentence(message: str) -> str:
-    text = message.removeprefix("Value error, ")
+    text = clipped(message.removeprefix("Value error, "))
     return text[:1].lower() + text[1:]
 
 

@@ -7,6 +7,8 @@ import json
 import re
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
+from itertools import islice
 
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _WORD = re.compile(r"[^\W_]+")
@@ -15,6 +17,7 @@ NONE = "none"
 """The value of an attribute that has no value; no object or attribute value may have this name."""
 
 
+@lru_cache(maxsize=32_768)
 def words(text: str) -> tuple[str, ...]:
     """The words of a name or phrase: no case, punctuation, underscores or British spellings.
 
@@ -24,6 +27,11 @@ def words(text: str) -> tuple[str, ...]:
         unicodedata.normalize("NFKC", text).casefold().replace("'", "").replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
     )
     return tuple(_SPELLINGS.get(word, word) for word in _WORD.findall(plain))
+
+
+def clipped(text: str) -> str:
+    """The text, shortened if it is very long: what is wrong may hold a whole document."""
+    return text if len(text) <= 400 else f"{text[:400]}..."
 
 
 def singular(word: str) -> str:
@@ -41,8 +49,8 @@ def hint(name: str, known: Iterable[str]) -> str:
     """` (did you mean ...?)` for the closest known name, else the known names when they are few, else
     nothing.
     """
-    names = list(dict.fromkeys(known))
-    close = difflib.get_close_matches(name[:200], names[:2_000], n=1, cutoff=0.6)
+    names = list(dict.fromkeys(islice(known, 2_000)))
+    close = difflib.get_close_matches(name[:200], names, n=1, cutoff=0.6)
     if close:
         return f" (did you mean {close[0]}?)"
     if 0 < len(names) <= 8:

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from models.logic.formula import Atom
 from models.world.actions import GroundedAction, ground_actions, merge_outcomes
-from models.world.algebra import Algebra, Batch, Box, Value, evaluate
+from models.world.algebra import Algebra, Array, Batch, Box, Frame, Value, evaluate
 from models.world.errors import StateError, WorldError
 from models.world.evaluator import Evaluator
+from models.world.expression import ExpressionError
 from models.world.limits import MAX_STATES
 from models.world.model import Model
 from models.world.names import NONE
@@ -73,56 +74,52 @@ class OomdpWorld:
         count = self.size if states is None else len(states)
         result = np.empty((len(atoms), count), dtype=np.bool_)
         for row, atom in enumerate(atoms):
-            symbols = bind_names(atom, self._vocabulary)
-            value = self._evaluator.call(atom.function, [self._evaluator.symbol(symbol) for symbol in symbols])
-            result[row] = self._truth(value, states)
+            result[row] = self._truth(self._proposition(atom), states)
         return result
 
     def outcomes(self, action: int, states: NDArray[np.int64] | None = None) -> Outcomes:
         """See `World.outcomes`."""
         self._require_indices()
-        chosen = self._actions[action]
-        return self._all_outcomes(chosen) if states is None else self._some_outcomes(chosen, states)
+        frame, here = self._frame(states)
+        return _outcomes(self._actions[action], frame, here)
+
+    def _proposition(self, atom: Atom) -> Value:
+        symbols = bind_names(atom, self._vocabulary)
+        self._evaluator.renew()
+        try:
+            return self._evaluator.call(atom.function, [self._evaluator.symbol(symbol) for symbol in symbols])
+        except ExpressionError as error:
+            raise WorldError(f"{atom.function}: {error}") from None
 
     def _truth(self, value: Value, states: NDArray[np.int64] | None) -> NDArray[np.bool_]:
         self._require_indices()
-        if states is None:
-            return np.array(np.broadcast_to(evaluate(value, self._box), self._box.shape)).reshape(-1)
-        return np.array(np.broadcast_to(evaluate(value, self._batch(states)), states.shape))
+        frame, here = self._frame(states)
+        return np.array(np.broadcast_to(evaluate(value, frame), here.shape)).reshape(-1)
+
+    def _frame(self, states: NDArray[np.int64] | None) -> tuple[Frame, NDArray[np.int64]]:
+        """All states or some, and their indices in the frame's shape."""
+        if states is not None:
+            return Batch(self._radix, self._strides, states), states
+        return self._box, np.arange(self.size, dtype=np.int64).reshape(self._box.shape)
 
     def _require_indices(self) -> None:
         if self.size > MAX_STATES:
             raise WorldError(f"{self.name} is too large to compute with: {self.size} states, at most {MAX_STATES}")
 
-    def _batch(self, states: NDArray[np.int64]) -> Batch:
-        return Batch(self._radix, self._strides, states)
 
-    def _all_outcomes(self, action: GroundedAction) -> Outcomes:
-        shape, count = self._box.shape, len(action.probabilities)
-        enabled = np.array(np.broadcast_to(evaluate(action.enabled, self._box), shape))
-        probability = np.empty((count, *shape))
-        successor = np.empty((count, *shape), dtype=np.int64)
-        here = np.arange(self.size, dtype=np.int64).reshape(shape)
-        for index, (chance, shift) in enumerate(zip(action.probabilities, action.shifts, strict=True)):
-            np.multiply(evaluate(chance, self._box), enabled, out=probability[index])
-            np.multiply(evaluate(shift, self._box), enabled, out=successor[index])
-            successor[index] += here
-        if not action.merged:
-            merge_outcomes(probability, successor, here)
-        return Outcomes(enabled.reshape(-1), probability.reshape(count, -1), successor.reshape(count, -1))
-
-    def _some_outcomes(self, action: GroundedAction, states: NDArray[np.int64]) -> Outcomes:
-        batch, count = self._batch(states), len(action.probabilities)
-        enabled = np.array(np.broadcast_to(evaluate(action.enabled, batch), states.shape))
-        probability = np.empty((count, len(states)))
-        successor = np.empty((count, len(states)), dtype=np.int64)
-        for index, (chance, shift) in enumerate(zip(action.probabilities, action.shifts, strict=True)):
-            np.multiply(evaluate(chance, batch), enabled, out=probability[index])
-            np.multiply(evaluate(shift, batch), enabled, out=successor[index])
-            successor[index] += states
-        if not action.merged:
-            merge_outcomes(probability, successor, states)
-        return Outcomes(enabled, probability, successor)
+def _outcomes(action: GroundedAction, frame: Frame, here: NDArray[np.int64]) -> Outcomes:
+    memo: dict[Value, Array] = {}
+    count, shape = len(action.probabilities), here.shape
+    enabled = np.array(np.broadcast_to(evaluate(action.enabled, frame, memo), shape))
+    probability = np.zeros((count, *shape))
+    successor = np.zeros((count, *shape), dtype=np.int64)
+    for index, (chance, shift) in enumerate(zip(action.probabilities, action.shifts, strict=True)):
+        np.copyto(probability[index], evaluate(chance, frame, memo), where=enabled)
+        np.copyto(successor[index], evaluate(shift, frame, memo), where=enabled)
+        successor[index] += here
+    if not action.merged:
+        merge_outcomes(probability, successor, here)
+    return Outcomes(enabled.reshape(-1), probability.reshape(count, -1), successor.reshape(count, -1))
 
 
 def _strides(radix: tuple[int, ...]) -> tuple[int, ...]:

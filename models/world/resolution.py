@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from models.logic.formula import Atom, Formula, Name, Parameter, map_atoms
-from models.world.compound import readings
+from models.logic.formula import Atom, Formula, Name, Parameter, atoms, map_atoms
+from models.world.compound import readings, unknown_part
 from models.world.domain import Function, FunctionParameter
 from models.world.environment import Environment
 from models.world.errors import TypeMismatchError, UnknownObjectError, UnknownPropositionError
-from models.world.names import application, hint, listing, words
+from models.world.names import application, hint, listing
 from models.world.vocabulary import Symbol, Vocabulary
 
 
@@ -17,7 +17,8 @@ def resolve(formula: Formula, environment: Environment) -> Formula:
 
     Raises UnknownPropositionError, UnknownObjectError or TypeMismatchError.
     """
-    return map_atoms(formula, lambda atom: resolve_atom(atom, environment.vocabulary))
+    resolved = {atom: resolve_atom(atom, environment.vocabulary) for atom in atoms(formula)}
+    return map_atoms(formula, resolved.__getitem__)
 
 
 def atom_symbols(atom: Atom, environment: Environment) -> tuple[Symbol | None, ...]:
@@ -74,11 +75,18 @@ def _compound(atom: Atom, vocabulary: Vocabulary) -> Atom:
     if found:
         ways = listing(application(a.function, (t.text for t in a.arguments if isinstance(t, Name))) for a in found)
         raise UnknownPropositionError(f"{atom.function} can be read as {ways}: write the one that is meant")
+    missing = unknown_part(atom.function, vocabulary)
+    if missing is not None and atom.function not in vocabulary.functions:
+        name, function = missing
+        known = (symbol.name for symbol in vocabulary.symbols())
+        raise UnknownObjectError(
+            f"nothing is called {name}{hint(name, known)}, in {atom.function} as {_signature(function)}"
+        )
     return atom
 
 
 def _argument(name: str, parameter: FunctionParameter, function: Function, vocabulary: Vocabulary) -> Symbol:
-    named = vocabulary.named(name) or _loosely_named(name, vocabulary)
+    named = vocabulary.named(name) or vocabulary.loosely_named(name)
     fitting = [symbol for symbol in named if symbol.kind in parameter.kinds]
     if len(fitting) == 1:
         return fitting[0]
@@ -92,18 +100,6 @@ def _argument(name: str, parameter: FunctionParameter, function: Function, vocab
         raise TypeMismatchError(f"{place} must be {kinds}, but {name} is {actual}")
     known = [symbol.name for symbol in vocabulary.symbols(*parameter.kinds)]
     raise UnknownObjectError(f"nothing is called {name}{hint(name, known)}; {place} must be {kinds}")
-
-
-def _loosely_named(name: str, vocabulary: Vocabulary) -> tuple[Symbol, ...]:
-    """Symbols with this name or synonym up to case, spaces and punctuation."""
-    wanted = words(name)
-    if not wanted:
-        return ()
-    return tuple(
-        symbol
-        for symbol in vocabulary.symbols()
-        if any(words(other) == wanted for other in (symbol.name, *vocabulary.synonyms.get(symbol, ())))
-    )
 
 
 def _signature(function: Function) -> str:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 from models.world.domain import Function
+from models.world.names import words
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,13 +28,21 @@ class Vocabulary:
     synonyms: Mapping[Symbol, tuple[str, ...]]
     static: Mapping[Symbol, Mapping[str, Symbol]]  # an object's unchanging attributes; absent where it has none
     class_words: Mapping[str, tuple[str, ...]]
-    _by_name: Mapping[str, tuple[Symbol, ...]] = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def _by_name(self) -> dict[str, tuple[Symbol, ...]]:
         by_name: dict[str, tuple[Symbol, ...]] = {}
         for symbol in self.symbols():
             by_name[symbol.name] = (*by_name.get(symbol.name, ()), symbol)
-        object.__setattr__(self, "_by_name", by_name)
+        return by_name
+
+    @cached_property
+    def _by_words(self) -> dict[tuple[str, ...], dict[Symbol, None]]:
+        by_words: dict[tuple[str, ...], dict[Symbol, None]] = {}
+        for symbol in self.symbols():
+            for name in self.names(symbol):
+                by_words.setdefault(words(name), {})[symbol] = None
+        return by_words
 
     def symbols(self, *kinds: str) -> tuple[Symbol, ...]:
         """The symbols of the given kinds, or all."""
@@ -42,3 +52,12 @@ class Vocabulary:
     def named(self, name: str) -> tuple[Symbol, ...]:
         """The symbols with exactly this name: none, one, or a homonym's several."""
         return self._by_name.get(name, ())
+
+    def names(self, symbol: Symbol) -> tuple[str, ...]:
+        """A symbol's name and synonyms."""
+        return (symbol.name, *self.synonyms.get(symbol, ()))
+
+    def loosely_named(self, name: str) -> tuple[Symbol, ...]:
+        """The symbols with this name or synonym up to case, spaces and punctuation."""
+        wanted = words(name)
+        return tuple(self._by_words.get(wanted, ())) if wanted else ()

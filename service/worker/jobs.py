@@ -109,9 +109,7 @@ def run_review(job: ReviewJob) -> tuple[str, ...]:
 
 def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedState, int, str | None], ...]:
     steps = () if trajectory is None else trajectory.steps[:MAX_STEPS]
-    return tuple(
-        (world.decode(s.state), s.memory, None if s.action is None else world.actions[s.action]) for s in steps
-    )
+    return tuple((world.decode(step.state), step.memory, step.action) for step in steps)
 
 
 @lru_cache(maxsize=16)

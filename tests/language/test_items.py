@@ -6,7 +6,7 @@ import random
 from itertools import chain
 
 from models.language.dataset import generate
-from models.language.items import batches, command, hidden_words, refusal, to_batch, vocabulary_of
+from models.language.items import at_least, batches, command, hidden_words, refusal, to_batch, vocabulary_of
 from models.language.vocabulary import END, NO_TASK
 
 BEAR = next(e for e in generate("manipulation").seen if e.text.startswith("Pick up the red teddy bear"))
@@ -51,6 +51,13 @@ def test_batch() -> None:
     assert target.previous[:, 0].tolist() == [vocabulary.start] * 2
     assert target.previous[0, 1:].tolist() == target.words[0, :-1].tolist()
     assert target.mask.tolist() == [[True] * 8, [True] * 2 + [False] * 6]
+
+
+def test_small_classes_are_repeated() -> None:
+    assert at_least(3, [BEAR]) == [BEAR] * 3
+    pair = [BEAR, generate("navigation").seen[0]]
+    assert at_least(3, pair) == pair * 2
+    assert at_least(1, pair) == at_least(2, pair) == pair
 
 
 def test_batches_hold_every_item_once() -> None:

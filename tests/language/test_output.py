@@ -43,6 +43,11 @@ def test_malformed(text: str) -> None:
     assert read([END if word == "END" else word for word in text.split()], ARITIES) is None
 
 
+def test_longer_than_a_query_may_be() -> None:
+    long = "z" * 1_500
+    assert read(["ship", "(", long, ",", long, ",", long, ")", END], ARITIES) is None
+
+
 def test_arguments_are_phrases_of_the_text() -> None:
     text = ["put", "the", "teddy", "bear", "in", "the", "box"]
     assert is_spoken(ContextualQuery("t", ("teddy bear", "box")), text)

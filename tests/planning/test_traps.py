@@ -172,7 +172,7 @@ def test_a_state_without_actions_stays() -> None:
     assert (waiting.action, waiting.done, waiting.status) == (None, False, "running")
     assert simulate(model, result.policy, runs=3, seed=0).satisfied.all()
     assert result.trajectory is not None
-    assert [(s.state, s.action) for s in result.trajectory.steps] == [(0, 0), (1, None), (1, None)]
+    assert [(s.state, s.action) for s in result.trajectory.steps] == [(0, "go"), (1, None), (1, None)]
 
 
 def test_an_unsatisfiable_formula_is_an_answer() -> None:

@@ -65,7 +65,7 @@ def test_the_caret_of_a_long_line_stays_in_view() -> None:
         parse_query(text)
     source, mark = caught.value.caret.split("\n")
     assert caught.value.column == 3004
-    assert len(source) <= 120
+    assert len(source) <= 90
     assert source[mark.index("^")] == '"'
 
 

@@ -1,51 +1,12 @@
-"""Warnings, and the search for a simpler formula, judged by Spot."""
+"""Warnings about templates."""
 
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from models.logic import Atom, Binary, Formula, Op, Unary, conjunction, disjunction, equivalent, parse
-from models.logic import to_text as formula_text
-from models.queries import Example, learn, parse_query, review, simplest_equivalent
+from models.logic import parse
+from models.queries import Example, learn, parse_query, review
 from models.world import Environment
-
-
-@pytest.mark.parametrize(
-    ("ltl", "simplest"),
-    [
-        ("F (a & F (a & b))", "F (a & b)"),  # the paper's ship orders nothing
-        ("F (a & F b)", "F (a & F b)"),  # a real order stays
-        ("(!b U a) & F (a & b)", "(!b U a) & F (a & b)"),
-        ("F F a", "F a"),
-        ("a & (a | b)", "a"),
-        ("G (a & G b)", "G (a & b)"),
-    ],
-)
-def test_simplest_equivalent(ltl: str, simplest: str) -> None:
-    assert formula_text(simplest_equivalent(parse(ltl))) == formula_text(parse(simplest))
-
-
-ATOMS = st.sampled_from([Atom("a"), Atom("b")])
-FORMULAS = st.recursive(
-    ATOMS,
-    lambda inner: st.one_of(
-        st.builds(Unary, st.sampled_from([Op.NOT, Op.NEXT, Op.FINALLY, Op.GLOBALLY]), inner),
-        st.builds(Binary, st.sampled_from([Op.UNTIL, Op.IMPLIES]), inner, inner),
-        st.builds(conjunction, inner, inner),
-        st.builds(disjunction, inner, inner),
-    ),
-    max_leaves=4,
-)
-
-
-@settings(max_examples=40, deadline=None)
-@given(FORMULAS)
-def test_simplifying_keeps_the_meaning_and_never_grows(formula: Formula) -> None:
-    simpler = simplest_equivalent(formula)
-    assert equivalent(simpler, formula)
-    assert simpler.size <= formula.size
 
 
 @pytest.mark.parametrize(

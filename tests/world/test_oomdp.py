@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from models.logic.formula import Atom, Name
-from models.world import compile_world, limits, load_environment
+from models.world import WorldError, compile_world, load_environment
 from tests.world.worlds import SWITCHES, changed
 
 LAMPS = ("one", "two", "three")
@@ -60,12 +60,12 @@ def check_switches():
             actual = {name: outcome(world, name, number) for name in world.actions}
             assert {name: chances for name, chances in actual.items() if chances} == wanted
     atoms = {
-        Atom("lit", (Name("two"),)): lambda by, levels: levels[1] == "high",
-        Atom("by", (Name("three"),)): lambda by, levels: by == "three",
-        Atom("idle"): lambda by, levels: by == "none",
-        Atom("alike", (Name("one"), Name("three"))): lambda by, levels: levels[0] == levels[2],
-        Atom("alike", (Name("one"), Name("two"))): lambda by, levels: False,
-        Atom("painted", (Name("two"), Name("blue"))): lambda by, levels: True,
+        Atom("lit", (Name("two"),)): lambda _by, levels: levels[1] == "high",
+        Atom("by", (Name("three"),)): lambda by, _levels: by == "three",
+        Atom("idle"): lambda by, _levels: by == "none",
+        Atom("alike", (Name("one"), Name("three"))): lambda _by, levels: levels[0] == levels[2],
+        Atom("alike", (Name("one"), Name("two"))): lambda _by, _levels: False,
+        Atom("painted", (Name("two"), Name("blue"))): lambda _by, _levels: True,
     }
     labels = world.labels(list(atoms))
     for row, holds in zip(labels, atoms.values(), strict=True):
@@ -132,7 +132,7 @@ def test_following_attributes_through_the_state():
         Atom("lies", (Name("x"), Name("t"))): lambda w: (w[w["x"]] if w["x"] in "AB" else w["x"]) == "t",
         Atom("inside", (Name("y"),)): lambda w: w["y"] in "AB",
         Atom("together", (Name("x"), Name("y"))): lambda w: w["x"] == w["y"],
-        Atom("together", (Name("x"), Name("x"))): lambda w: False,
+        Atom("together", (Name("x"), Name("x"))): lambda _w: False,
         Atom("crowded"): lambda w: w["x"] == w["y"] and w["x"] in "AB",
         Atom("sorted"): lambda w: w["x"] != w["y"] and {w["x"], w["y"]} == {"A", "B"},
     }
@@ -193,10 +193,38 @@ def test_static_guards_drop_actions():
     assert [name for name in world.actions if name.startswith("press")] == ["press(one)", "press(three)"]
 
 
-def test_limits_are_documented(pytestconfig):
-    text = (pytestconfig.rootpath / "docs" / "worlds.md").read_text(encoding="utf-8")
-    for name in dir(limits):
-        if name.startswith("MAX_"):
-            value = getattr(limits, name)
-            shown = {2**40: "2^40", 2**27: "2^27", 2**25: "2^25", 2**20: "2^20"}.get(value, f"{value:,}")
-            assert f"| `{name}` | {shown} |" in text, name
+def test_numbers_that_are_not_finite_stay_where_the_action_is_impossible():
+    share = "1 / count(x: lamp; bright(x))"
+    data = changed(
+        SWITCHES,
+        ("domain_spec/actions/flip/when", "robot.by is lamp and any(x: lamp; bright(x))"),
+        ("domain_spec/actions/flip/outcomes/0/probability", share),
+        ("domain_spec/actions/flip/outcomes/1/probability", f"1 - {share}"),
+    )
+    world = compile_world(load_environment(data))
+    flip = world.outcomes(world.actions.index("flip"))
+    assert np.isfinite(flip.probability).all()
+    two_lit = world.encode({"robot": {"by": "one"}, "one": {"level": "high"}})
+    assert flip.probability[:, two_lit].tolist() == [0.5, 0.5]
+
+
+def test_asking_for_many_labels_never_runs_out_of_work():
+    world = compile_world(load_environment(SWITCHES))
+    atoms = [Atom("alike", (Name(x), Name(y))) for x in LAMPS for y in LAMPS]
+    for _ in range(20_000 // len(atoms)):
+        world.labels(atoms, np.array([world.initial]))
+
+
+def test_a_proposition_beyond_the_limit_of_work_is_refused():
+    lamps = {f"l{i}": {"class": "lamp"} for i in range(60)}
+    state = {"robot": {"by": "none"}} | {name: {"level": "low"} for name in lamps}
+    heavy = "all(a: lamp; all(b: lamp; all(c: lamp; a.level == b.level or b.level == c.level)))"
+    data = changed(
+        SWITCHES,
+        ("objects", {name: lamps[name] for name in list(lamps)[:30]}),
+        ("state", {name: state[name] for name in ["robot", *list(lamps)[:30]]}),
+        ("domain_spec/functions/heavy", {"is": heavy}),
+    )
+    world = compile_world(load_environment(data))
+    with pytest.raises(WorldError, match="heavy: the world takes too much work"):
+        world.labels([Atom("heavy")], np.array([world.initial]))

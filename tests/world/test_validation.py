@@ -319,3 +319,17 @@ def test_not_even_an_object(value):
 @pytest.mark.parametrize(("name", "data"), builtin_environments())
 def test_builtin_environments_load(name, data):
     assert load_environment(data).name == name
+
+
+def test_a_flood_of_faults_is_cut_short():
+    lamps = {f"lamp number {i}": {"class": "lamb", "attributes": {"colour": "x"}} for i in range(4_000)}
+    found = faults(changed(SWITCHES, ("objects", lamps)))
+    assert len(found) == 50
+
+
+def test_long_names_do_not_make_long_messages():
+    data = changed(SWITCHES, ("state", {"x" * 100_000: {}}))
+    with pytest.raises(WorldError) as caught:
+        load_environment(data)
+    assert len(caught.value.detail) < 2_000
+    assert all(len(place.detail) < 500 for place in caught.value.places)

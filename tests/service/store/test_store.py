@@ -1,0 +1,143 @@
+"""The store: migrations, concurrent writers, what is refused."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import pytest
+from alembic.autogenerate import compare_metadata
+from alembic.migration import MigrationContext
+from sqlalchemy import inspect
+
+from service.errors import EnvironmentExistsError, UnknownEnvironmentError, UnknownTemplateError
+from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate
+from service.store.engine import open_engine
+from service.store.migrate import migrate
+from service.store.tables import metadata
+
+
+@pytest.fixture
+def url(tmp_path: Path) -> str:
+    found = f"sqlite:///{tmp_path / 'folder' / 'store.sqlite3'}"
+    migrate(found)
+    return found
+
+
+def template(task: str, revision: int = 1) -> StoredTemplate:
+    return StoredTemplate(
+        task=task,
+        template="F holding($1)",
+        lifted="F holding(t)",
+        kinds=(("box", "toy"),),
+        pairs=(StoredPair(f"{task}(a)", "F holding(a)", "toys"),),
+        examples=(StoredExample("take a", f"{task}(a)"),),
+        warnings=("odd",),
+        revision=revision,
+    )
+
+
+def test_the_migrations_make_the_tables_of_the_code(url: str) -> None:
+    engine = open_engine(url)
+    with engine.connect() as connection:
+        assert compare_metadata(MigrationContext.configure(connection), metadata) == []
+        assert connection.exec_driver_sql("PRAGMA journal_mode").scalar() == "wal"
+    engine.dispose()
+
+
+def test_migrating_twice_changes_nothing(url: str) -> None:
+    store = Store(url)
+    with store.write() as transaction:
+        transaction.templates.put(template("t"))
+    migrate(url)
+    with store.read() as transaction:
+        assert transaction.templates.get("t") == template("t")
+    store.close()
+
+
+def test_the_first_revision_can_be_undone(url: str) -> None:
+    from alembic import command
+    from alembic.config import Config
+
+    config = Config()
+    config.set_main_option("script_location", str(Path(__file__).parents[3] / "migrations"))
+    config.attributes["url"] = url
+    command.downgrade(config, "base")
+    engine = open_engine(url)
+    assert set(inspect(engine).get_table_names()) == {"alembic_version"}
+    engine.dispose()
+
+
+def test_rows_come_back_as_they_were_put(url: str) -> None:
+    store = Store(url)
+    with store.write() as transaction:
+        transaction.templates.put(template("b"))
+        transaction.templates.put(template("a"))
+        transaction.templates.put(template("a", 2))
+        transaction.environments.add("e", "oomdp", {"z": [1], "a": {"nested": "ö"}})
+        transaction.policies.add(StoredPolicy("p", "e", "F a", b"\x00\xff"))
+        transaction.policies.add(StoredPolicy("p", "e", "F a", b"\x00\xff"))
+    with store.read() as transaction:
+        assert transaction.templates.page(limit=9) == [template("a", 2), template("b")]
+        assert transaction.templates.page(after="a", limit=9) == [template("b")]
+        assert transaction.templates.examples() == [StoredExample("take a", f"{task}(a)") for task in "ab"]
+        assert list(transaction.environments.get("e").data) == ["z", "a"]
+        assert transaction.policies.get("p").data == b"\x00\xff"
+    store.close()
+
+
+def test_a_failed_transaction_stores_nothing(url: str) -> None:
+    store = Store(url)
+
+    def write() -> None:
+        with store.write() as transaction:
+            transaction.templates.put(template("half"))
+            transaction.environments.add("half", "oomdp", {})
+            transaction.templates.delete("missing")
+
+    with pytest.raises(UnknownTemplateError):
+        write()
+    with store.read() as transaction:
+        assert transaction.templates.find("half") is None
+        with pytest.raises(UnknownEnvironmentError):
+            transaction.environments.get("half")
+    store.close()
+
+
+def test_names_are_taken_once(url: str) -> None:
+    store = Store(url)
+    with store.write() as transaction:
+        assert transaction.environments.add("e", "oomdp", {}).revision == 1
+        with pytest.raises(EnvironmentExistsError):
+            transaction.environments.add("e", "explicit", {})
+        assert transaction.environments.put("e", "explicit", {}).revision == 2
+    store.close()
+
+
+def test_eight_writers_lose_nothing(url: str) -> None:
+    """Read, then write what was read plus one: with deferred transactions most of these would fail."""
+    store, each = Store(url), 25
+    with store.write() as transaction:
+        transaction.templates.put(template("count", 0))
+    failures: list[Exception] = []
+
+    def write() -> None:
+        own = Store(url)
+        for _ in range(each):
+            try:
+                with own.write() as transaction:
+                    known = transaction.templates.get("count")
+                    transaction.templates.put(template("count", known.revision + 1))
+            except Exception as error:
+                failures.append(error)
+        own.close()
+
+    threads = [threading.Thread(target=write) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failures == []
+    with store.read() as transaction:
+        assert transaction.templates.get("count").revision == 8 * each
+    store.close()

@@ -1,0 +1,40 @@
+"""The documents say what the code does: every slug, every setting, every table."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import models
+import service
+from models.errors import CqltlError
+from service.http.problems import STATUS
+from service.settings import Settings
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+INTERNAL = {"error", "invalid-name", "invalid-policy", "invalid-vocabulary", "invalid-weights", "invalid-training"}
+"""Slugs of refusals that no request can meet."""
+
+
+def slugs(kind: type[CqltlError]) -> set[str]:
+    return {kind.slug}.union(*(slugs(child) for child in kind.__subclasses__()))
+
+
+def test_every_slug_has_a_status_and_is_documented() -> None:
+    for package in (models, service):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if not module.name.endswith("__main__"):
+                importlib.import_module(module.name)
+    rows = re.findall(r"^\| `([a-z-]+)` \| (\d+) \|", (DOCS / "http.md").read_text(encoding="utf-8"), re.MULTILINE)
+    documented = {slug: int(status) for slug, status in rows}
+    assert documented == STATUS
+    assert slugs(CqltlError) - INTERNAL <= set(STATUS)
+
+
+def test_every_setting_is_documented_with_its_default() -> None:
+    rows = re.findall(r"^\| `CQLTL_(\w+)` \| (?:`(.*?)`)? ?\|", (DOCS / "settings.md").read_text(), re.MULTILINE)
+    settings = {name.upper(): str(field.default) for name, field in Settings.model_fields.items()}
+    assert dict(rows) == settings

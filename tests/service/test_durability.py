@@ -1,0 +1,82 @@
+"""What was answered is kept: kill -9, restart, and two servers on one store."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import httpx
+import pytest
+
+from benchmarks.server import address, serving, started
+from models.world import toys_spec
+from tests.service.conftest import run_cli
+
+
+def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
+    with started(tmp_path) as process:
+        url = address(process)
+        lesson = {"contextual_query": "hold(sphere)", "ltl": "F holding(sphere)", "environment": "toys"}
+        world = {**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "mine"}
+        assert httpx.post(f"{url}/environments", json=world).status_code == 201
+        plan = httpx.post(f"{url}/plan", json={"ltl": "F holding(cube)", "environment": "mine"}, timeout=60).json()
+        template = httpx.post(f"{url}/learn", json=lesson)
+        process.kill()  # right after the 201
+    assert template.status_code == 201
+    with serving(tmp_path) as client:
+        assert client.get("/templates/hold").json() == template.json()
+        kept = client.get("/environments/mine").json()["spec"]
+        assert client.put("/environments/mine", json=kept).json()["spec"] == kept
+        assert {name: thing["class"] for name, thing in kept["objects"].items()} == {"box": "box", "cube": "toy"}
+        step = client.post(f"{plan['policy']['url']}/step", json={"state": plan["initial"]["state"]}).json()
+        assert step["action"] == plan["trajectory"][0]["action"]
+        grounded = client.post("/ground", json={"contextual_query": "hold(cylinder)", "environment": "toys"})
+        assert grounded.json()["ltl"] == "F holding(cylinder)"
+
+
+def test_what_was_deleted_stays_deleted(tmp_path: Path) -> None:
+    with serving(tmp_path) as client:
+        assert client.delete("/templates/pickup").status_code == 204
+        assert client.delete("/environments/navigation").status_code == 204
+    with serving(tmp_path) as client:
+        assert client.get("/templates/pickup").status_code == 404
+        assert client.get("/environments/navigation").status_code == 404
+        assert client.get("/templates/ship").status_code == 200
+
+
+def test_two_servers_share_a_store(tmp_path: Path) -> None:
+    """Both start on an empty folder at once; what one learns, the other knows at once."""
+    with started(tmp_path) as one, started(tmp_path) as two:
+        urls = address(one), address(two)
+        codes: list[int] = []
+
+        def teach(url: str, number: int) -> None:
+            lesson = {
+                "contextual_query": f"task{number}(sphere)",
+                "ltl": "F holding(sphere)",
+                "environment": "toys",
+                "examples": [f"perform number {number} on the sphere"],
+            }
+            codes.append(httpx.post(f"{url}/learn", json=lesson, timeout=60).status_code)
+
+        threads = [threading.Thread(target=teach, args=(urls[n % 2], n)) for n in range(16)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert codes == [201] * 16
+        for url in urls:
+            tasks = [item["task"] for item in httpx.get(f"{url}/templates", params={"limit": 200}).json()["items"]]
+            assert {f"task{n}" for n in range(16)} <= set(tasks)
+            for number in range(16):
+                body = {"text": f"perform number {number} on the cylinder", "environment": "toys"}
+                answer = httpx.post(f"{url}/translate", json=body).json()
+                assert answer["contextual_query"]["text"] == f"task{number}(cylinder)"
+
+
+@pytest.mark.parametrize("setting", [("CQLTL_PORT", "high"), ("CQLTL_WORKERS", "0")])
+def test_a_wrong_setting_is_named(tmp_path: Path, setting: tuple[str, str]) -> None:
+    result = run_cli("serve", data=tmp_path, **dict([setting]))
+    assert result.returncode == 2
+    assert result.stderr.startswith(setting[0])
+    assert not list(tmp_path.iterdir())

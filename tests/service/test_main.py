@@ -1,0 +1,88 @@
+"""The command line, on a store of its own and against a running server."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import httpx
+import pytest
+import yaml
+
+from models.world import toys_spec
+from tests.service.conftest import run_cli
+
+SHIP = "Put the cylinder in the box, then put the box in the bedroom"
+
+
+def test_the_whole_path_without_a_server(tmp_path: Path) -> None:
+    learned = run_cli("learn", "stash(sphere)", "F in(sphere, box)", "--environment", "toys", data=tmp_path)
+    assert learned.returncode == 0, learned.stderr
+    assert json.loads(learned.stdout)["template"] == "F in($1, box)"
+    translated = run_cli("translate", SHIP, "--environment", "toys", data=tmp_path)
+    assert json.loads(translated.stdout)["contextual_query"]["text"] == "ship(cylinder, box, bedroom)"
+    planned = run_cli("plan", "--contextual-query", "stash(cylinder)", "--environment", "toys", data=tmp_path)
+    assert json.loads(planned.stdout)["outcome"] == "solved"
+
+
+def test_the_same_against_a_server(client: httpx.Client, tmp_path: Path) -> None:
+    server = ["--server", str(client.base_url)]
+    here = run_cli("translate", SHIP, "--environment", "toys", data=tmp_path / "local")
+    there = run_cli("translate", SHIP, "--environment", "toys", *server, data=tmp_path / "unused")
+    assert here.stdout == there.stdout
+    learned = run_cli(
+        "learn",
+        "cli(sphere)",
+        "F holding(sphere)",
+        "--environment",
+        "toys",
+        "--example",
+        "cli sphere",
+        *server,
+        data=tmp_path,
+    )
+    assert json.loads(learned.stdout)["examples"] == ["cli sphere"]
+    assert not (tmp_path / "unused").exists()
+
+
+def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> None:
+    file = tmp_path / "world.yaml"
+    file.write_text(yaml.safe_dump({**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "filed"}))
+    planned = run_cli(
+        "plan",
+        "--ltl",
+        "F holding(cube)",
+        "--environment-file",
+        str(file),
+        "--server",
+        str(client.base_url),
+        data=tmp_path,
+    )
+    assert json.loads(planned.stdout)["environment"] == "filed"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "said"),
+    [
+        (["plan", "--ltl", "F (", "--environment", "toys"], 1, "formula-syntax"),
+        (["plan", "--ltl", "F a", "--environment", "atlantis"], 1, "unknown-environment"),
+        (["plan", "--ltl", "F a", "--environment-file", "/no/such/file"], 1, "/no/such/file"),
+        (["plan", "--ltl", "F a"], 2, "--environment"),
+        (["fly"], 2, "invalid choice"),
+    ],
+)
+def test_refusals_go_to_standard_error(
+    client: httpx.Client, tmp_path: Path, arguments: list[str], status: int, said: str
+) -> None:
+    server = ["--server", str(client.base_url)] if status == 1 else []
+    result = run_cli(*arguments, *server, data=tmp_path)
+    assert result.returncode == status
+    assert said in result.stderr
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+
+
+def test_a_server_that_is_not_there(tmp_path: Path) -> None:
+    result = run_cli("translate", "go", "--server", "http://127.0.0.1:9", data=tmp_path)
+    assert result.returncode == 1
+    assert "http://127.0.0.1:9/translate" in result.stderr

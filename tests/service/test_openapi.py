@@ -1,0 +1,65 @@
+"""openapi.yaml is what the app serves, valid, and documents errors as they are sent."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import yaml
+from openapi_spec_validator import validate
+
+from service.http.problems import STATUS
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def document(client: httpx.Client) -> dict[str, Any]:
+    found: dict[str, Any] = client.get("/openapi.json").json()
+    return found
+
+
+def test_the_file_is_what_the_app_serves(document: dict[str, Any]) -> None:
+    assert yaml.safe_load((ROOT / "openapi.yaml").read_text(encoding="utf-8")) == document
+
+
+def test_it_is_a_valid_document(document: dict[str, Any]) -> None:
+    validate(document)
+
+
+def test_every_error_is_a_problem(document: dict[str, Any]) -> None:
+    for path in document["paths"].values():
+        for operation in path.values():
+            assert operation["operationId"]
+            for status, response in operation["responses"].items():
+                if status == "default" or status >= "400":
+                    assert list(response["content"]) == ["application/problem+json"]
+
+
+def test_no_union_lacks_a_discriminator(document: dict[str, Any]) -> None:
+    def check(schema: Any) -> None:
+        if isinstance(schema, list):
+            for item in schema:
+                check(item)
+        elif isinstance(schema, dict):
+            for key in ("oneOf", "anyOf"):
+                members = [m for m in schema.get(key, []) if m != {"type": "null"}]
+                assert len(members) < 2 or "discriminator" in schema, schema
+            for value in schema.values():
+                check(value)
+
+    check(document)
+
+
+def test_every_status_that_slugs_have_is_documented_somewhere(document: dict[str, Any]) -> None:
+    documented = {
+        status
+        for path in document["paths"].values()
+        for operation in path.values()
+        for status in operation["responses"]
+    }
+    assert {
+        str(status) for slug, status in STATUS.items() if slug not in ("internal", "method-not-allowed")
+    } <= documented
