@@ -11,6 +11,7 @@ from typing import TypedDict
 import torch
 from anyio.to_thread import run_sync
 from fastapi import FastAPI
+from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import CopyNetTranslator
 from service.http import environments, health, language, plans, policies, templates
@@ -45,6 +46,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         separate_input_output_schemas=False,
     )
     install(app)
+    app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
     for module in (language, templates, environments, plans, policies, health):
         app.include_router(module.router)

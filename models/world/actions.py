@@ -107,7 +107,10 @@ class _Grounder:
             place = (*path, "outcomes", index)
             self._in_range(probability, enabled, (*place, "probability"), name)
             happens = self.algebra.combine(_positive, probability)
-            shifts.append(self._shift(changes, self.evaluator.connect(True, [enabled, happens]), place, name))
+            possible = self.evaluator.connect(True, [enabled, happens])
+            for effect, (position, value) in zip(action.outcomes[index].effects, changes.items(), strict=True):
+                self._can_become(position, value, possible, (*place, "set", effect.target), name)
+            shifts.append(self._shift(changes))
         probabilities = tuple(probability for _, probability, _ in happening)
         self._sums_to_one(probabilities, enabled, path, name)
         return self._merge(GroundedAction(name, enabled, probabilities, tuple(shifts), False))
@@ -125,9 +128,7 @@ class _Grounder:
             raise ActionError((*path, "outcomes"), f"{name}: the probabilities do not sum to 1{witness}")
 
     def _witness(self, fault: Value, enabled: Value, path: Path) -> str | None:
-        """Where a fault happens in a state that enables the action: ` when robot.at is kitchen`; None if
-        nowhere.
-        """
+        """Where a fault happens in a state that enables the action, ` when robot.at is kitchen`, or None."""
         if known_truth(fault) is False:
             return None
         both = self.evaluator.connect(True, [enabled, fault])
@@ -159,16 +160,19 @@ class _Grounder:
             changes[position] = self.evaluator.evaluate(effect.value, scope)
         return changes
 
-    def _shift(self, changes: Mapping[int, Value], happens: Value, path: Path, name: str) -> Value:
+    def _can_become(self, position: int, value: Value, possible: Value, path: Path, name: str) -> None:
+        variable = self.evaluator.model.variables[position]
+        digit = self.algebra.combine(self._digit_of(variable.values).__getitem__, value)
+        if witness := self._witness(self.algebra.combine(_negative, digit), possible, path):
+            target = f"{variable.owner.name}.{variable.attribute}"
+            raise ActionError(path, f"{name}: {target} would become something it cannot be{witness}")
+
+    def _shift(self, changes: Mapping[int, Value]) -> Value:
         """What the changes add to the index of the state."""
         shifts: list[Value] = []
         for position, value in changes.items():
             variable = self.evaluator.model.variables[position]
             digit = self.algebra.combine(self._digit_of(variable.values).__getitem__, value)
-            target = f"{variable.owner.name}.{variable.attribute}"
-            place = (*path, "set")
-            if witness := self._witness(self.algebra.combine(_negative, digit), happens, place):
-                raise ActionError(place, f"{name}: {target} would become something it cannot be{witness}")
             radix, stride = len(variable.values), self.strides[position]
             old = self.algebra.variable(position, np.arange(radix, dtype=np.int64) * stride)
             new = self.algebra.combine((np.arange(radix + 1, dtype=np.int64) * stride).__getitem__, digit)

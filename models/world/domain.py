@@ -70,6 +70,7 @@ class Effect:
     owner: str
     attribute: str
     value: Expression
+    target: str  # owner and attribute as written
 
 
 @dataclass(frozen=True, slots=True)

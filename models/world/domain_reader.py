@@ -297,7 +297,7 @@ class _Reader:
             pass
         except ExpressionError as error:
             self.report.add(path, str(error))
-        return Effect(owner, attribute, value)
+        return Effect(owner, attribute, value, target)
 
     def _typed(
         self, path: tuple[str | int, ...], text: str, scope: dict[str, frozenset[str]], checker: Checker,

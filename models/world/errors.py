@@ -3,8 +3,7 @@
 CqltlError
 ├── WorldError               the data of an environment or domain is wrong; `places` point into the data
 ├── StateError               a state names something the world does not have, or breaks a constraint
-├── UnknownPropositionError  a formula uses a propositional function the environment does not have, or wrongly
-many arguments
+├── UnknownPropositionError  a formula uses a propositional function that the environment does not have
 ├── UnknownObjectError       a formula names an object or value the environment does not have
 └── TypeMismatchError        a formula gives a propositional function an argument of the wrong kind
 """

@@ -4,8 +4,8 @@ A phrase is tried in three ways, and the first that finds something decides:
 
 1. it is the name of a symbol, or a synonym of one ("cylinder", "the H&M", "orange");
 2. the same, but for a plural ("the cylinders");
-3. it describes objects: a head noun (the end of a name or synonym, the class, "one") with attribute values
-and further words of the name in any order ("the small red bucket", "toy that is red", "red").
+3. it describes objects: a head noun (the end of a name or synonym, the class, "one") with attribute values and
+   further words of the name in any order ("the small red bucket", "toy that is red", "red").
 
 Kinds narrow all three. Where kinds leave both a value and an object with the name, the part of speech
 decides: an adjective is a value, a noun an object.
@@ -22,38 +22,8 @@ from models.world.names import listing, singular, words
 from models.world.vocabulary import Symbol, Vocabulary
 
 PartOfSpeech = Literal["noun", "adjective"]
-_DETERMINERS = frozenset(
-    {
-        "the",
-        "a",
-        "an",
-        "this",
-        "that",
-        "these",
-        "those",
-        "my",
-        "your",
-        "his",
-        "her",
-        "its",
-        "our",
-        "their",
-        "some",
-    }
-)
-_FILLERS = _DETERMINERS | {
-    "which",
-    "is",
-    "are",
-    "colored",
-    "shaped",
-    "sized",
-    "with",
-    "of",
-    "in",
-    "color",
-    "and",
-}
+_DETERMINERS = frozenset(words("the a an this that these those my your his her its our their some"))
+_FILLERS = _DETERMINERS | frozenset(words("which is are and with of in color colored shaped sized"))
 _GENERIC = frozenset({"one", "thing", "object", "item"})
 _LONGEST = 20  # words
 
@@ -132,12 +102,12 @@ def _called(
 
 def _name_reason(symbol: Symbol, vocabulary: Vocabulary) -> str:
     kind = symbol.kind.replace("_", " ")
-    return f"the {kind} {symbol.name}" if symbol in vocabulary.values else f"a {kind} named {symbol.name}"
+    return f"a {kind} named {symbol.name}" if vocabulary.is_object(symbol) else f"the {kind} {symbol.name}"
 
 
 def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech | None) -> tuple[Candidate, ...]:
-    values = [candidate for candidate in found if candidate.symbol in vocabulary.values]
-    objects = [candidate for candidate in found if candidate.symbol not in vocabulary.values]
+    values = [candidate for candidate in found if not vocabulary.is_object(candidate.symbol)]
+    objects = [candidate for candidate in found if vocabulary.is_object(candidate.symbol)]
     if pos == "adjective" and values:
         return tuple(values)
     if pos == "noun" and objects:
@@ -147,7 +117,7 @@ def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech |
 
 def _is_typed_value(spoken: tuple[str, ...], symbol: Symbol, vocabulary: Vocabulary) -> bool:
     """Whether the phrase is a value with its type: "the color red", "red color"."""
-    if symbol not in vocabulary.values:
+    if vocabulary.is_object(symbol):
         return False
     kind, name = words(symbol.kind), words(symbol.name)
     return spoken in ((*kind, *name), (*name, *kind))
@@ -155,7 +125,7 @@ def _is_typed_value(spoken: tuple[str, ...], symbol: Symbol, vocabulary: Vocabul
 
 def _described(spoken: tuple[str, ...], symbols: Iterable[Symbol], vocabulary: Vocabulary) -> list[Candidate]:
     content = [singular(word) for word in spoken if word not in _FILLERS]
-    described = [_describe(content, s, vocabulary) for s in symbols if content and s not in vocabulary.values]
+    described = [_describe(content, s, vocabulary) for s in symbols if content and vocabulary.is_object(s)]
     return [candidate for candidate in described if candidate is not None]
 
 
@@ -168,7 +138,7 @@ def _describe(content: list[str], symbol: Symbol, vocabulary: Vocabulary) -> Can
     values = {
         attribute: value.name
         for attribute, value in vocabulary.static.get(symbol, {}).items()
-        if value in vocabulary.values and _contains(content, _stems(value.name))
+        if not vocabulary.is_object(value) and _contains(content, _stems(value.name))
     }
     explained = {word for value in values.values() for word in _stems(value)}
     rest = {word for word in content if word not in explained}

@@ -53,6 +53,10 @@ class Vocabulary:
         """The symbols with exactly this name: none, one, or a homonym's several."""
         return self._by_name.get(name, ())
 
+    def is_object(self, symbol: Symbol) -> bool:
+        """Whether a symbol is an object, not an attribute value."""
+        return symbol.kind in self.class_words
+
     def names(self, symbol: Symbol) -> tuple[str, ...]:
         """A symbol's name and synonyms."""
         return (symbol.name, *self.synonyms.get(symbol, ()))

@@ -107,7 +107,12 @@ DOMAINS = [
         "do not sum to 1 when robot.by is two",
     ),
     (f"{FLIP}outcomes/0/set", {"robot.by": "robot.by.next"}, "actions/flip/outcomes/0/set", None),
-    (f"{D}actions/press/outcomes/0/set", {"x.level": "x.next.level"}, "actions/press/outcomes/0/set", "cannot be"),
+    (
+        f"{D}actions/press/outcomes/0/set",
+        {"x.level": "x.next.level"},
+        "actions/press/outcomes/0/set/x.level",
+        "press(three): three.level would become something it cannot be when robot.by is three",
+    ),
     (
         f"{D}actions/two",
         {"arguments": ["x: lamp", "y: lamp"], "outcomes": [{"set": {"x.level": "low", "y.level": "high"}}]},
