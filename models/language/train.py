@@ -46,7 +46,8 @@ class Settings:
     encoder: int = 96  # in each direction
     decoder: int = 128
     dropout: float = 0.2  # on embeddings
-    hide: float = 0.5  # arguments shown as unknown words: half the time the network must copy what it cannot know
+    hide: float = 0.5  # arguments shown as unknown words, to be copied: T has none of its own, and with 0 almost
+    # nothing of U is right (manipulation 0.7 %, navigation 0 %; with 0.5 all of it)
     least: int = 150  # commands of a task class per epoch; T has 23 of navigate_one and 458 of navigate_three
     hide_refusals: float = 0.1  # words of texts that no task fits, so that a strange word alone does not mean a task
 
