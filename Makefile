@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test check format openapi train bench clean
+.PHONY: serve test check format openapi train evaluate bench clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -27,6 +27,9 @@ openapi: $(VENV)/.dev
 
 train: $(VENV)/.dev
 	$(BIN)/python -m models.language.train
+
+evaluate: $(VENV)/.dev
+	$(BIN)/python -m models.language.evaluate
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.table2

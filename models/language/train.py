@@ -26,6 +26,7 @@ from models.language.accuracy import Tally
 from models.language.copynet import CopyNet, loss
 from models.language.dataset import Domain, by_task, generate, no_task, split
 from models.language.errors import TrainingError
+from models.language.evaluate import measure
 from models.language.items import Item, at_least, batches, command, hidden_words, refusal, to_batch, vocabulary_of
 from models.language.threshold import best_threshold
 from models.language.translator import CopyNetTranslator
@@ -164,20 +165,6 @@ def _one_epoch(
         optimizer.step()
         total += value.item() * len(chunk)
     return total / len(items)
-
-
-def measure(model: Model, domains: Sequence[Domain]) -> dict[str, Tally]:
-    """The translator's accuracy on S and U by task class, and its refusals of the texts kept from training."""
-    translator = CopyNetTranslator(model.network, model.vocabulary, model.arities, model.min_confidence)
-    table: dict[str, Tally] = {}
-    for domain in domains:
-        for part, examples in (("S", generate(domain).seen), ("U", generate(domain).unseen)):
-            tallies = accuracy.by_task(translator, examples)
-            total = Tally(sum(t.right for t in tallies.values()), sum(t.total for t in tallies.values()))
-            table |= {f"{part} {domain}/{task}": tally for task, tally in tallies.items()}
-            table[f"{part} {domain}"] = total
-    table["no task, held out"] = accuracy.refusals(translator, no_task(seed=int(model.training["seed"])).held_out)
-    return table
 
 
 def _as_rates(table: Mapping[str, Tally]) -> dict[str, float]:

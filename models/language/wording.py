@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from models.errors import CqltlError, Place
 from models.language.tokens import words
@@ -83,10 +84,11 @@ class Wording:
             if at < len(spoken) and spoken[at] == expected:
                 yield from self._fill(spoken, at + 1, element + 1, filled, budget)
             return
-        start = at + (at < len(spoken) and spoken[at] in DETERMINERS)
+        # A determiner is not part of the phrase, unless nothing else makes sense: `a` may be a name.
+        starts = (at + 1, at) if at < len(spoken) and spoken[at] in DETERMINERS else (at,)
         known = filled.get(expected)
         lengths = range(1, MAX_SLOT_WORDS + 1) if known is None else (len(known),)
-        for length in lengths:
+        for start, length in product(starts, lengths):
             phrase = spoken[start : start + length]
             if len(phrase) == length and known in (None, phrase) and CONNECTIVES.isdisjoint(phrase):
                 yield from self._fill(spoken, start + length, element + 1, {**filled, expected: phrase}, budget)
