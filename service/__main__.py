@@ -56,14 +56,14 @@ def _parser() -> argparse.ArgumentParser:
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
 
-    document = commands.add_parser("openapi", help="print the OpenAPI document")
+    document = _remote(commands.add_parser("openapi", help="print the OpenAPI document"))
     document.add_argument("--output", type=Path, help="write it to this file")
     document.add_argument("--check", type=Path, help="fail when this file differs from it")
     return parser
 
 
 def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
-    parser.add_argument("--server", help="address of a running server; without it the store is used directly")
+    parser.add_argument("--server", help="address of a running server; without it none is needed")
     return parser
 
 
@@ -108,12 +108,17 @@ def _read_environment(path: Path) -> Any:
 
 
 def _openapi(settings: Settings, options: argparse.Namespace) -> int:
+    """Print, write or compare the document of this version, or of the server that is asked."""
     import yaml
 
-    from service.app import create_app
+    from service.client import UnreachableError, document
 
-    document = create_app(settings).openapi()
-    text = yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=100)
+    try:
+        found = document(server=options.server, settings=settings)
+    except UnreachableError as error:
+        print(error, file=sys.stderr)
+        return 1
+    text = yaml.safe_dump(found, sort_keys=False, allow_unicode=True, width=100)
     if options.check is not None:
         if options.check.read_text(encoding="utf-8") == text:
             return 0

@@ -22,14 +22,31 @@ def post(path: str, body: dict[str, Any], *, server: str | None, settings: Setti
     Raises:
         UnreachableError: no server answers at that address, or what answers does not speak JSON.
     """
+    if server is None:
+        response = asyncio.run(_post_here(path, body, settings))
+        return response.status_code, response.json()
+    return _send("POST", server, path, body)
+
+
+def document(*, server: str | None, settings: Settings) -> dict[str, Any]:
+    """The OpenAPI document; raises as `post`."""
+    if server is None:
+        from service.app import create_app
+
+        return create_app(settings).openapi()
+    status, found = _send("GET", server, "/openapi.json", None)
+    if status != 200 or not isinstance(found, dict):
+        raise UnreachableError(f"{server} has no OpenAPI document: status {status}")
+    return found
+
+
+def _send(method: str, server: str, path: str, body: dict[str, Any] | None) -> tuple[int, Any]:
+    url = server.rstrip("/") + path
     try:
-        if server is not None:
-            response = httpx.post(server.rstrip("/") + path, json=body, timeout=TIMEOUT_S)
-        else:
-            response = asyncio.run(_post_here(path, body, settings))
+        response = httpx.request(method, url, json=body, timeout=TIMEOUT_S)
         return response.status_code, response.json()
     except (httpx.HTTPError, httpx.InvalidURL, ValueError) as error:
-        raise UnreachableError(f"{server}{path}: {error}") from error
+        raise UnreachableError(f"{url}: {error}") from error
 
 
 async def _post_here(path: str, body: dict[str, Any], settings: Settings) -> httpx.Response:

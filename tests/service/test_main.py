@@ -82,6 +82,17 @@ def test_refusals_go_to_standard_error(
     assert "Traceback" not in result.stderr
 
 
+def test_the_document_is_the_servers(client: httpx.Client, tmp_path: Path) -> None:
+    there = run_cli("openapi", "--server", str(client.base_url), data=tmp_path)
+    here = run_cli("openapi", data=tmp_path)
+    assert yaml.safe_load(there.stdout) == yaml.safe_load(here.stdout) == client.get("/openapi.json").json()
+    stale = tmp_path / "stale.yaml"
+    stale.write_text("openapi: 3.1.0\n")
+    assert run_cli("openapi", "--check", str(stale), data=tmp_path).returncode == 1
+    assert run_cli("openapi", "--output", str(stale), data=tmp_path).returncode == 0
+    assert run_cli("openapi", "--check", str(stale), data=tmp_path).returncode == 0
+
+
 def test_a_server_that_is_not_there(tmp_path: Path) -> None:
     result = run_cli("translate", "go", "--server", "http://127.0.0.1:9", data=tmp_path)
     assert result.returncode == 1
