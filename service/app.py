@@ -11,6 +11,7 @@ from typing import TypedDict
 import torch
 from anyio.to_thread import run_sync
 from fastapi import FastAPI
+from fastapi_offline import FastAPIOffline
 from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import CopyNetTranslator
@@ -37,7 +38,8 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
 
     `warm` starts the worker processes at once, so that the first plan is as fast as the others.
     """
-    app = FastAPI(
+    app = FastAPIOffline(
+        redoc_url=None,
         title="cqltl",
         summary="English robot commands to plans: contextual queries, templated LTL, policies.",
         version=version("cqltl"),

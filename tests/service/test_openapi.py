@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,15 @@ def document(client: httpx.Client) -> dict[str, Any]:
 
 def test_the_file_is_what_the_app_serves(document: dict[str, Any]) -> None:
     assert yaml.safe_load((ROOT / "openapi.yaml").read_text(encoding="utf-8")) == document
+
+
+def test_the_documentation_page_needs_no_other_machine(client: httpx.Client) -> None:
+    page = client.get("/docs").text
+    sources = re.findall(r'(?:src|href)="([^"]*)"', page)
+    assert len(sources) >= 3
+    for source in sources:
+        assert source.startswith("/")
+        assert client.get(source).status_code == 200
 
 
 def test_it_is_a_valid_document(document: dict[str, Any]) -> None:
