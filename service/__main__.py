@@ -33,7 +33,7 @@ def _parser() -> argparse.ArgumentParser:
 
     serve = commands.add_parser("serve", help="migrate the store and serve over HTTP")
     serve.add_argument("--host", help="address to bind (CQLTL_HOST, 127.0.0.1)")
-    serve.add_argument("--port", type=int, help="port to bind, 0 for any free one (CQLTL_PORT, 8000)")
+    serve.add_argument("--port", type=_port, help="port to bind, 0 for any free one (CQLTL_PORT, 8000)")
 
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
@@ -62,19 +62,27 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _port(text: str) -> int:
+    number = int(text)
+    if not 0 <= number <= 65535:
+        raise argparse.ArgumentTypeError("a port is a number from 0 to 65535")
+    return number
+
+
 def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
     parser.add_argument("--server", help="address of a running server; without it none is needed")
     return parser
 
 
 def _serve(settings: Settings, options: argparse.Namespace) -> int:
-    from service.server import serve
+    from service.server import CannotListenError, serve
 
-    serve(
-        settings,
-        host=options.host or settings.host,
-        port=settings.port if options.port is None else options.port,
-    )
+    port = settings.port if options.port is None else options.port
+    try:
+        serve(settings, host=options.host or settings.host, port=port)
+    except CannotListenError as error:
+        print(error, file=sys.stderr)
+        return 1
     return 0
 
 

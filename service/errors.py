@@ -16,10 +16,9 @@ CqltlError
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from models.errors import CqltlError
-from models.world import Candidate
 
 
 class NotFoundError(CqltlError):
@@ -65,13 +64,13 @@ class NotUnderstoodError(CqltlError):
 
 
 class AmbiguousCommandError(CqltlError):
-    """The command to plan could mean any of the `candidates`."""
+    """The command to plan could mean any of the `choices`: objects, or contextual queries."""
 
     slug = "ambiguous-command"
 
-    def __init__(self, detail: str, *, candidates: Sequence[Candidate]) -> None:
+    def __init__(self, detail: str, *, choices: Iterable[str]) -> None:
         super().__init__(detail)
-        self.candidates = tuple(candidates)
+        self.choices = tuple(choices)
 
 
 class OutOfTimeError(CqltlError):

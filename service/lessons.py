@@ -107,15 +107,23 @@ def _keep(
         elif (known.template, known.arity) == (new.template, new.arity):
             kept = _add_evidence(known, new)
         elif lesson.replace:
-            kept = replace(new, revision=known.revision + 1)
+            kept = _replace(known, new)
         else:
-            raise TemplateConflictError(
+            detail = (
                 f'{template.task} is stored with the template {known.template}; "replace": true puts '
                 f"{new.template} in its place"
             )
+            raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
     return kept, known is None
+
+
+def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
+    """The new template in place of the known one; how people say the task stays known if its arguments are as many."""
+    examples = known.examples if known.arity == new.arity else ()
+    kept = tuple(dict.fromkeys(examples + new.examples))[:MAX_EVIDENCE]
+    return replace(new, examples=kept, revision=known.revision + 1)
 
 
 def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:

@@ -22,7 +22,7 @@ from models.queries import (
     resolve_grounded,
 )
 from models.world import Environment, State
-from service.errors import AmbiguousCommandError, NotUnderstoodError, UnknownTemplateError
+from service.errors import AmbiguousCommandError, NotUnderstoodError
 from service.lessons import read_template
 from service.places import at
 from service.services import LoadedEnvironment, Services
@@ -32,12 +32,20 @@ from service.worker import Device, PlanAnswer, PlanJob, run_plan
 
 
 @dataclass(frozen=True, slots=True)
+class Meaning:
+    """A contextual query grounded, with the warnings of its template."""
+
+    task: GroundedTask
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Reading:
-    """One way to read a command: its query, and the grounded task or the refusal that stands in its way."""
+    """One way to read a command: its query, and what it means or the refusal that stands in the way."""
 
     query: ContextualQuery
     confidence: float
-    task: GroundedTask | None
+    meaning: Meaning | None
     refusal: CqltlError | None
 
 
@@ -78,7 +86,7 @@ class PlanOrder:
 class Planned:
     """A plan: what was planned for, where, and what was found."""
 
-    task: GroundedTask | None
+    meaning: Meaning | None
     formula: Formula
     environment: Environment
     answer: PlanAnswer
@@ -86,25 +94,43 @@ class Planned:
 
 
 def translate(
-    services: Services, text: str, *, environment: str | None, translator: str, candidates: int
+    services: Services,
+    text: str,
+    *,
+    environment: str | None,
+    translator: str,
+    candidates: int,
+    pointer: str = "/text",
 ) -> Translated:
-    """Translate a command; with an environment, ground each reading and put it into its template."""
+    """Translate a command; with an environment, ground each reading and put it into its template.
+
+    `pointer` is where the text stands in the request.
+    """
     with at("/environment"):
         world = None if environment is None else services.environment(environment).value
-    return translate_in(services, text, world, translator=translator, candidates=candidates)
+    with at(pointer):
+        return _translate_in(services, text, world, translator=translator, candidates=candidates)
 
 
-def translate_in(
+def _translate_in(
     services: Services, text: str, environment: Environment | None, *, translator: str, candidates: int
 ) -> Translated:
     """Translate a command for an environment that is at hand."""
-    with at("/text"):
-        found = understand(services, text, translator=translator, candidates=candidates)
-    readings = tuple(_read(services, text, t.query, t.confidence, environment) for t in found)
-    return Translated(text, readings, environment)
+    known: dict[ContextualQuery, tuple[Meaning | None, CqltlError | None]] = {}
+
+    def mean(query: ContextualQuery) -> tuple[Meaning | None, CqltlError | None]:
+        if query not in known:
+            known[query] = _mean(services, text, query, environment)
+        return known[query]
+
+    def fits(query: ContextualQuery) -> bool:
+        return mean(query)[1] is None or isinstance(mean(query)[1], AmbiguousGroundingError)
+
+    found = understand(services, text, translator=translator, candidates=candidates, fits=fits)
+    return Translated(text, tuple(Reading(t.query, t.confidence, *mean(t.query)) for t in found), environment)
 
 
-def ground(services: Services, query: str, environment: str) -> tuple[Environment, GroundedTask]:
+def ground(services: Services, query: str, environment: str) -> tuple[Environment, Meaning]:
     """Evaluate a contextual query against its stored template in a stored environment."""
     with at("/environment"):
         world = services.environment(environment).value
@@ -114,51 +140,55 @@ def ground(services: Services, query: str, environment: str) -> tuple[Environmen
 
 def ground_query(
     services: Services, query: ContextualQuery, environment: Environment, *, text: str | None = None
-) -> GroundedTask:
+) -> Meaning:
     """Evaluate a query against its stored template; parts of speech of `text` are asked only when nothing else decides.
 
     Raises:
         UnknownTemplateError: and whatever `models.queries.evaluate` raises.
     """
     with services.store.read() as transaction:
-        template = read_template(transaction.templates.get(query.task))
+        stored = transaction.templates.get(query.task)
+    template = read_template(stored)
     try:
-        return evaluate(template, query, environment)
+        return Meaning(evaluate(template, query, environment), stored.warnings)
     except AmbiguousGroundingError:
         if text is None:
             raise
     from models.language import part_of_speech
 
     tags = [part_of_speech(text, phrase) for phrase in query.arguments]
-    return evaluate(template, query, environment, parts_of_speech=tags)
+    return Meaning(evaluate(template, query, environment, parts_of_speech=tags), stored.warnings)
 
 
 async def plan(services: Services, order: PlanOrder) -> Planned:
     """Ground, compile, and run value iteration in a worker process; the policy is stored."""
-    environment, task, formula = await run_sync(_prepare, services, order)
+    environment, meaning, formula = await run_sync(_prepare, services, order)
     job = PlanJob(environment.text, formula, order.state, order.epsilon, order.max_states, order.device)
     with (
         at("/state", only={"invalid-state"}),
+        at("/options/max_states", only={"model-too-large"}),
+        at("/options/device", only={"device-unavailable"}),
         at(_source(order), only={"formula-not-cosafe", "formula-too-large"}),
     ):
         answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
     policy_id = await run_sync(_keep_policy, services, environment.value.name, formula, answer)
-    return Planned(task, formula, environment.value, answer, policy_id)
+    return Planned(meaning, formula, environment.value, answer, policy_id)
 
 
-def _read(
-    services: Services, text: str, query: ContextualQuery, confidence: float, environment: Environment | None
-) -> Reading:
+def _mean(
+    services: Services, text: str, query: ContextualQuery, environment: Environment | None
+) -> tuple[Meaning | None, CqltlError | None]:
+    """What a query means in the environment, or why it means nothing there; neither without an environment."""
     if environment is None:
-        return Reading(query, confidence, None, None)
+        return None, None
     try:
-        return Reading(query, confidence, ground_query(services, query, environment, text=text), None)
+        return ground_query(services, query, environment, text=text), None
     except CqltlError as error:
-        return Reading(query, confidence, None, error)
+        return None, error
 
 
-def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, GroundedTask | None, Formula]:
-    """The environment, the grounded task when it came from words, and the resolved formula."""
+def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, Meaning | None, Formula]:
+    """The environment, the meaning when it came from words, and the resolved formula."""
     if order.spec is None:
         assert order.environment is not None
         with at("/environment"):
@@ -166,33 +196,34 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, G
     else:
         with at("/environment_spec"):
             environment = LoadedEnvironment.read(order.spec)
-    if order.ltl is not None:
-        with at("/ltl"):
-            return environment, None, resolve_grounded(parse(order.ltl), environment.value)
     with at(_source(order)):
+        if order.ltl is not None:
+            return environment, None, resolve_grounded(parse(order.ltl), environment.value)
         if order.text is not None:
-            task = _task_of(services, order.text, environment.value, order.translator)
+            meaning = _meaning_of(services, order.text, environment.value, order.translator)
         else:
             assert order.query is not None
-            task = ground_query(services, parse_query(order.query), environment.value)
-    return environment, task, task.formula
+            meaning = ground_query(services, parse_query(order.query), environment.value)
+    return environment, meaning, meaning.task.formula
 
 
-def _task_of(services: Services, text: str, environment: Environment, translator: str) -> GroundedTask:
-    """The grounded task of a command to be planned; a robot must not act on a guess, so doubt is refused."""
-    translated = translate_in(services, text, environment, translator=translator, candidates=1)
-    if not translated.readings:
-        raise NotUnderstoodError(f'no stored task fits "{text[:100]}"')
-    reading = translated.readings[0]
-    if reading.task is not None:
-        return reading.task
-    assert reading.refusal is not None
-    if isinstance(reading.refusal, AmbiguousGroundingError):
-        raise AmbiguousCommandError(reading.refusal.detail, candidates=reading.refusal.candidates)
-    if isinstance(reading.refusal, UnknownTemplateError):
-        raise NotUnderstoodError(reading.refusal.detail)
-    reading.refusal.places = ()  # they are in a contextual query that the caller did not write
-    raise reading.refusal
+def _meaning_of(services: Services, text: str, environment: Environment, translator: str) -> Meaning:
+    """What a command to be planned means; a robot must not act on a guess, so doubt is refused."""
+    readings = _translate_in(services, text, environment, translator=translator, candidates=2).readings
+    if not readings:
+        raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; GET /templates lists the known tasks')
+    best = readings[0]
+    if isinstance(best.refusal, AmbiguousGroundingError):
+        raise AmbiguousCommandError(best.refusal.detail, choices=best.refusal.choices)
+    if best.meaning is None:
+        assert best.refusal is not None
+        best.refusal.places = ()  # they are in a contextual query that the caller did not write
+        raise best.refusal
+    rivals = [reading for reading in readings if reading.confidence == best.confidence]
+    if len(rivals) > 1:
+        detail = f'"{text[:100]}" was taught with several meanings; send one of them as contextual_query'
+        raise AmbiguousCommandError(detail, choices=(str(reading.query) for reading in rivals))
+    return best.meaning
 
 
 def _source(order: PlanOrder) -> str:

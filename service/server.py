@@ -5,32 +5,51 @@ from __future__ import annotations
 import socket
 
 import uvicorn
+from sqlalchemy.engine import make_url
 
 from service.app import create_app
 from service.settings import Settings
 
 _TRY = """
-cqltl serves {url}  (documentation: {url}/docs). Try:
+cqltl serves {url}  (documentation: {url}/docs; store: {store}). Try:
 
   curl --json '{{"text": "Put the cylinder in the box, then put the box in the bedroom", "environment": "toys"}}' \\
     {url}/translate
 """
 
 
+class CannotListenError(Exception):
+    """The address cannot be bound."""
+
+
 class _Server(uvicorn.Server):
     """Says where it listens once it does."""
+
+    def __init__(self, config: uvicorn.Config, said: str) -> None:
+        super().__init__(config)
+        self._said = said
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         if self.started:
-            host, port = self.servers[0].sockets[0].getsockname()[:2]
-            shown = f"[{host}]" if ":" in host else host
-            print(_TRY.format(url=f"http://{shown}:{port}"), flush=True)  # noqa: T201 - what `cqltl serve` is for
+            print(self._said, flush=True)  # noqa: T201 - what `cqltl serve` is for
 
 
 def serve(settings: Settings, *, host: str, port: int) -> None:
-    """Serve until interrupted."""
-    config = uvicorn.Config(
-        create_app(settings), host=host, port=port, log_level="warning", timeout_graceful_shutdown=10
-    )
-    _Server(config).run()
+    """Serve until interrupted; raises `CannotListenError`."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        listener = socket.create_server((host, port), family=family, backlog=2048)
+    except OSError as error:
+        reason = error.strerror or error
+        raise CannotListenError(
+            f"cannot listen on {host} port {port} ({reason}); --port or CQLTL_PORT chooses another"
+        ) from error
+    with listener:
+        shown = f"[{host}]" if ":" in host else host
+        said = _TRY.format(
+            url=f"http://{shown}:{listener.getsockname()[1]}",
+            store=make_url(settings.url).render_as_string(hide_password=True),
+        )
+        config = uvicorn.Config(create_app(settings), log_level="warning", timeout_graceful_shutdown=10)
+        _Server(config, said).run(sockets=[listener])

@@ -55,6 +55,12 @@ class Services:
         """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""
         return self._policy(policy_id)
 
+    def forget_policy(self, policy_id: str) -> None:
+        """Delete a policy; other processes may answer from their cache for a while."""
+        with self.store.write() as transaction:
+            transaction.policies.delete(policy_id)
+        self._policy.cache_clear()
+
     def check(self) -> None:
         """Raise `NotReadyError` when the store does not answer."""
         try:

@@ -7,7 +7,7 @@ from models.language.errors import TextTooLongError, TrainingError, VocabularyEr
 from models.language.tagging import part_of_speech
 from models.language.tokens import MAX_CHARACTERS, MAX_WORDS
 from models.language.translator import BEAM_WIDTH, CopyNetTranslator, Translation, Translator
-from models.language.wording import ExampleArgumentNotFoundError, TaughtTranslator, Wording
+from models.language.wording import ExampleArgumentNotFoundError, ExampleTooGeneralError, TaughtTranslator, Wording
 
 __all__ = [
     "BEAM_WIDTH",
@@ -15,6 +15,7 @@ __all__ = [
     "MAX_WORDS",
     "CopyNetTranslator",
     "ExampleArgumentNotFoundError",
+    "ExampleTooGeneralError",
     "TaughtTranslator",
     "TextTooLongError",
     "TrainingError",

@@ -35,6 +35,12 @@ class ExampleArgumentNotFoundError(CqltlError):
     slug = "example-argument-not-found"
 
 
+class ExampleTooGeneralError(CqltlError):
+    """An utterance says nothing but its arguments, so every command would match it."""
+
+    slug = "example-too-general"
+
+
 @dataclass(frozen=True, slots=True)
 class Wording:
     """A pattern of words and slots, and the task it says."""
@@ -49,6 +55,7 @@ class Wording:
 
         Raises:
             ExampleArgumentNotFoundError: an argument's words do not stand in the utterance.
+            ExampleTooGeneralError: it has no word besides its arguments.
             TextTooLongError: the utterance is beyond the limits of a command.
         """
         elements: list[Element] = list(words(utterance))
@@ -59,7 +66,15 @@ class Wording:
                     f'the utterance does not contain argument {slot + 1} of {query.task}, "{query.arguments[slot]}"'
                 )
                 raise ExampleArgumentNotFoundError(detail, places=[Place("", detail)])
+        if all(isinstance(element, int) or element in DETERMINERS for element in elements):
+            detail = f"the utterance has no word besides the arguments of {query.task}, so any command would match it"
+            raise ExampleTooGeneralError(detail, places=[Place("", detail)])
         return cls(query.task, len(phrases), tuple(_drop_determiners(elements)))
+
+    @property
+    def literal(self) -> int:
+        """Number of words that must stand in a command."""
+        return sum(isinstance(element, str) for element in self.elements)
 
     def match(self, spoken: Sequence[str]) -> ContextualQuery | None:
         """The query that the words of a command say in this wording, or None."""
@@ -106,14 +121,19 @@ class TaughtTranslator:
         return cls(tuple(dict.fromkeys(Wording.of(utterance, query) for utterance, query in examples)))
 
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
-        """The query of the most literal wording that matches, then of the others; the first has confidence 1.
+        """The queries of the wordings that match, the most literal wordings first.
 
-        Where wordings disagree, the later ones are readings without a probability of their own: confidence 0.
+        The readings of the most literal wordings share the confidence 1; the others have confidence 0.
         """
         spoken = words(text)
-        ranked = sorted(self.wordings, key=lambda w: -sum(isinstance(element, str) for element in w.elements))
-        found = dict.fromkeys(query for wording in ranked if (query := wording.match(spoken)) is not None)
-        return tuple(Translation(query, float(rank == 0)) for rank, query in enumerate(found))[:candidates]
+        found: dict[ContextualQuery, int] = {}
+        for wording in sorted(self.wordings, key=lambda wording: -wording.literal):
+            query = wording.match(spoken)
+            if query is not None:
+                found.setdefault(query, wording.literal)
+        best = [query for query, literal in found.items() if literal == max(found.values())]
+        readings = [Translation(query, 1 / len(best) if query in best else 0.0) for query in found]
+        return tuple(readings[:candidates])
 
 
 def _put_slot(elements: list[Element], phrase: Sequence[str], slot: Slot) -> bool:

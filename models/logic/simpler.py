@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Nary, build, children, nary
-from models.logic.spot import equivalent, rewrite
+from models.logic.spot import equivalent
 
 _MOST_COMPARISONS = 400  # a comparison of small formulas takes well under a millisecond
 _LARGEST = 60  # nodes of a formula that is worth comparing with what it shrinks to
 
 
 def simplify(formula: Formula) -> Formula:
-    """An equivalent formula that is as small as local changes make it, else `formula` itself.
+    """An equivalent formula from which every part is left out that may be, else `formula` itself.
 
-    Spot's rewriting comes first; then, in formulas of moderate size, every operator that may be dropped is: this
-    finds that `F (a & F (a & b))` is `F (a & b)`. Deterministic. Raises FormulaTooLargeError and SpotMissingError.
+    It finds that `F (a & F (a & b))` is `F (a & b)`. It rewrites nothing otherwise, so what it leaves out is what the
+    formula says without demanding it. Formulas beyond a moderate size are returned as they are. Deterministic. Raises
+    FormulaTooLargeError and SpotMissingError.
     """
-    rewritten = rewrite(formula)
-    best = rewritten if rewritten.size < formula.size else formula
+    best = formula
     comparisons = 0
     smaller: Formula | None = best if best.size <= _LARGEST else None
     while smaller is not None:

@@ -1,4 +1,4 @@
-"""The bridge to Spot: comparing and simplifying formulas, and translating them to automata.
+"""The bridge to Spot: comparing formulas, and translating them to automata.
 
 Spot (Duret-Lutz et al., "From Spot 2.0 to Spot 2.10", CAV 2022) is imported here and nowhere else, when first needed.
 It never sees a caller's text: formulas are built with its constructors over the propositions p0, p1, ...
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from models.logic.automaton import Automaton
 from models.logic.effort import obligations
 from models.logic.errors import FormulaNotCosafeError, FormulaTooLargeError, SpotMissingError
-from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms, build, fold
+from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms, fold
 from models.logic.printer import atom_text, to_text
 
 MAX_ATOMS = 16
@@ -69,35 +69,6 @@ class _Vocabulary:
 
         return fold(formula, combine)
 
-    def decode(self, encoded: Any) -> Formula:
-        """Spot's formula as ours. Operands of `&` and `|` are put in order: Spot's depends on what it saw before."""
-        done: dict[int, Formula] = {}
-        stack = [encoded]
-        while stack:
-            node = stack[-1]
-            waiting = [part for part in node if part.id() not in done]
-            if waiting:
-                stack.extend(waiting)
-            else:
-                stack.pop()
-                done[node.id()] = self._decode_node(node, [done[part.id()] for part in node])
-        return done[encoded.id()]
-
-    def _decode_node(self, node: Any, operands: list[Formula]) -> Formula:
-        kind = node.kindstr()
-        if kind == "ap":
-            return self.atoms[int(node.ap_name()[1:])]
-        if kind in ("tt", "ff"):
-            return TRUE if kind == "tt" else FALSE
-        op = _OPERATORS_OF_SPOT[kind]
-        if op in (Op.AND, Op.OR):
-            operands = sorted(operands, key=self._rank)
-        return build(op, operands)
-
-    def _rank(self, formula: Formula) -> tuple[int, str]:
-        first = next(iter(atoms(formula)), None)
-        return (self.atoms.index(first) if first is not None else -1, to_text(formula))
-
 
 _SPOT_OPERATORS = {
     Op.NOT: "Not",
@@ -113,7 +84,6 @@ _SPOT_OPERATORS = {
     Op.WEAK_UNTIL: "W",
     Op.STRONG_RELEASE: "M",
 }
-_OPERATORS_OF_SPOT = {name: op for op, name in _SPOT_OPERATORS.items()}
 
 
 def equivalent(left: Formula, right: Formula) -> bool:
@@ -135,12 +105,6 @@ def is_satisfiable(formula: Formula) -> bool:
 def is_valid(formula: Formula) -> bool:
     """Whether every infinite word satisfies the formula. Raises as `equivalent` does."""
     return equivalent(formula, TRUE)
-
-
-def rewrite(formula: Formula) -> Formula:
-    """An equivalent formula by Spot's rewriting rules, which may be larger. Raises as `equivalent` does."""
-    vocabulary = _Vocabulary.of(formula)
-    return vocabulary.decode(_spot().tl_simplifier().simplify(vocabulary.encode(formula)))
 
 
 def is_cosafe(formula: Formula) -> bool:

@@ -9,19 +9,19 @@ CqltlError
 
 from __future__ import annotations
 
-from models.errors import CqltlError
+from models.errors import CqltlError, Place
 
 
 class ModelTooLargeError(CqltlError):
     """The product of world and automaton is beyond a limit; nothing was allocated.
 
-    `estimate` and `limit` are in `unit`: "states" or "bytes".
+    `estimate` and `limit` are in `unit`: "states" or "bytes". The place is the whole of what was asked.
     """
 
     slug = "model-too-large"
 
     def __init__(self, detail: str, *, estimate: int, limit: int, unit: str) -> None:
-        super().__init__(detail)
+        super().__init__(detail, places=[Place("", detail)])
         self.estimate = estimate
         self.limit = limit
         self.unit = unit

@@ -20,7 +20,7 @@ from models.planning.policy import NOTHING, WAIT, Policy
 from models.planning.probability import Probability, maximal_probability
 from models.planning.product import Product, build_product, read_labels
 from models.planning.steps import Steps, conserving, fewest_steps
-from models.planning.trajectory import Trajectory, most_likely_run
+from models.planning.trajectory import Trajectory, most_probable_run
 from models.world import StateError, World
 
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
@@ -104,7 +104,7 @@ def plan(
         initial_state=start,
         initial_memory=automaton.initial,
         policy=_policy(world, automaton, product, steps, attained, start),
-        trajectory=most_likely_run(
+        trajectory=most_probable_run(
             compiled, product, steps.chosen, world.actions, state=start, memory=automaton.initial
         ),
         sizes=_sizes(world, automaton),

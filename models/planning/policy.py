@@ -2,7 +2,8 @@
 
 The robot's loop: observe the state s, look up (memory, s), keep the memory that comes back, do the action,
 observe again. Memory starts at `initial_memory`. The lookup reads the label of s, so arrays are indexed by
-the memory *before* reading.
+the memory *before* reading. Where no action is enabled there is none to do, though nothing is decided: the
+robot lets one step pass and observes again.
 """
 
 from __future__ import annotations
@@ -14,9 +15,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from models.errors import Place
 from models.planning.codec import strides
 from models.planning.errors import InvalidMemoryError
 from models.world import State, StateError, Variable
+from models.world.names import clipped
+from models.world.report import pointer
 from models.world.states import decode_state, encode_state
 
 NOTHING = -1
@@ -28,6 +32,9 @@ WAIT = -2
 INVALID = -1
 """In `next_memory`: the state breaks the world's constraints."""
 
+MAX_PLACES = 20
+"""Most attributes named that a state leaves out."""
+
 Status = Literal["running", "satisfied", "lost"]
 
 
@@ -37,13 +44,14 @@ class Step:
 
     `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "lost" (it cannot be satisfied
     from here, `probability` is 0 and `action` None: a robot should stop and ask for another task) or
-    "running". While running, `action` is None only where the world enables none: observe again one step
-    later. `expected_steps` counts the steps until the status is one of the first two; `probability` is that
-    of "satisfied".
+    "running". `action` may be None while the status is "running": the world enables no action in this state,
+    so there is nothing to do but to let one step pass, then observe and ask again with the new memory. Hence
+    None alone does not mean the end; `status` does. `expected_steps` counts the steps, waits included, until
+    the status is one of the first two; `probability` is that of "satisfied".
     """
 
-    action: str | None
-    memory: int
+    action: str | None  # None: wait one step if `status` is "running", else stop
+    memory: int  # after reading the label of the state: the one to send with the next state
     probability: float
     expected_steps: float
     done: bool
@@ -86,8 +94,7 @@ class Policy:
 
         Raises StateError for what the world does not have, and for a state that breaks its constraints.
         """
-        start = self.initial_state if base is None else base
-        index = encode_state(state, self.variables, strides(self.variables), start)
+        index = self._index(state, base)
         self._check(index)
         return index
 
@@ -96,14 +103,15 @@ class Policy:
         return decode_state(index, self.variables, strides(self.variables))
 
     def step(self, state: int | State, memory: int) -> Step:
-        """What to do in `state` (an index, or by name as for `encode`) with the memory before its label is
-        read.
+        """What to do in `state` (an index, or by name) with the memory before its label is read.
 
-        Raises StateError for an invalid state and InvalidMemoryError for a memory the policy does not have.
+        A state by name is complete: what was not observed is not made up. Raises StateError for a state that
+        leaves out an attribute, has what the world does not, or breaks its constraints, and
+        InvalidMemoryError for a memory the policy does not have.
         """
         if not 0 <= memory < self.memories:
             raise InvalidMemoryError(f"memory {memory} is not one of 0 to {self.memories - 1}")
-        index = self.encode(state) if isinstance(state, Mapping) else state
+        index = self._observed(state) if isinstance(state, Mapping) else state
         self._check(index)
         action = int(self.action[memory, index])
         probability = float(self.probability[memory, index])
@@ -117,6 +125,24 @@ class Policy:
             done=done,
             status="satisfied" if done else "running" if action != NOTHING else "lost",
         )
+
+    def _index(self, state: State, base: int | None) -> int:
+        """As `encode`, constraints not looked at."""
+        start = self.initial_state if base is None else base
+        return encode_state(state, self.variables, strides(self.variables), start)
+
+    def _observed(self, state: State) -> int:
+        """The index of a state that names every variable."""
+        index = self._index(state, None)  # wrong names first: a misspelt attribute is missing as well
+        missing = [(v.object, v.attribute) for v in self.variables if v.attribute not in state.get(v.object, {})]
+        if missing:
+            listed = ", ".join(f"{attribute} of {name}" for name, attribute in missing[:MAX_PLACES])
+            more = f" and {len(missing) - MAX_PLACES} more" if len(missing) > MAX_PLACES else ""
+            raise StateError(
+                f"the state is not complete, and a step needs every attribute; missing: {clipped(listed)}{more}",
+                places=[Place(pointer(path), "missing") for path in missing[:MAX_PLACES]],
+            )
+        return index
 
     def _check(self, index: int) -> None:
         if not 0 <= index < self.states:

@@ -71,3 +71,8 @@ class AmbiguousGroundingError(CqltlError):
         self.position = position
         self.phrase = phrase
         self.candidates = tuple(candidates)
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The names of the candidates."""
+        return tuple(candidate.symbol.name for candidate in self.candidates)

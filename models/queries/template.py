@@ -111,19 +111,49 @@ def evaluate(
         raise ArityMismatchError(detail, places=[Place("", detail)])
     kinds = parameter_kinds(template.formula, environment, template.arity)
     tags = parts_of_speech or [None] * template.arity
-    bindings = tuple(
-        Binding(index + 1, phrase, _ground_argument(query, index, kinds[index], environment, tags[index]))
-        for index, phrase in enumerate(query.arguments)
-    )
+    bindings = []
+    for index, phrase in enumerate(query.arguments):
+        words = _describing(template, query, index, kinds, environment)
+        found = _ground_argument(query, index, kinds[index], environment, tags[index], words)
+        bindings.append(Binding(index + 1, phrase, found))
     terms: dict[Term, Term] = {Parameter(b.position): Name(b.candidate.symbol.name) for b in bindings}
-    return GroundedTask(query, resolve(substitute(template.formula, terms), environment), bindings)
+    return GroundedTask(query, resolve(substitute(template.formula, terms), environment), tuple(bindings))
+
+
+def _describing(
+    template: Template, query: ContextualQuery, index: int, kinds: Sequence[Kinds], environment: Environment
+) -> str:
+    """The argument with the attribute values that the template says of it in front: "red toy" for `$1` of
+    `colored($1, $2)` in `pickup_colored(toy, red)`; just the argument when there are none.
+    """
+    positions = {
+        other.position - 1
+        for atom in atoms(template.formula)
+        if Parameter(index + 1) in atom.arguments
+        for other in atom.arguments
+        if isinstance(other, Parameter) and _are_values(kinds[other.position - 1], environment)
+    }
+    values = [query.arguments[position] for position in sorted(positions - {index})]
+    return " ".join([*values, query.arguments[index]])
+
+
+def _are_values(kinds: Kinds, environment: Environment) -> bool:
+    return bool(kinds) and not any(map(environment.vocabulary.is_object, environment.symbols(*kinds)))
 
 
 def _ground_argument(
-    query: ContextualQuery, index: int, kinds: Kinds, environment: Environment, pos: PartOfSpeech | None
+    query: ContextualQuery,
+    index: int,
+    kinds: Kinds,
+    environment: Environment,
+    pos: PartOfSpeech | None,
+    described: str,
 ) -> Candidate:
     phrase, pointer = query.arguments[index], f"/arguments/{index}"
     candidates = ground(phrase, environment, kinds=kinds, pos=pos).candidates
+    if len(candidates) != 1 and described != phrase:
+        phrase = described
+        candidates = ground(phrase, environment, kinds=kinds).candidates
     if len(candidates) == 1:
         return candidates[0]
     if candidates:

@@ -16,6 +16,7 @@ from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.resolution import atom_symbols, resolve
 from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
+from models.world.suggestion import suggest
 from models.world.vocabulary import Symbol
 from models.world.world import Outcomes, State, Variable, World
 
@@ -48,5 +49,6 @@ __all__ = [
     "load_environment",
     "navigation_spec",
     "resolve",
+    "suggest",
     "toys_spec",
 ]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import assert_never
 
 from models.world.domain import Argument, Definition, ObjectClass, Parameter
@@ -30,7 +31,7 @@ from models.world.expression import (
     Variable,
 )
 from models.world.limits import MAX_EXPANDED_NESTING
-from models.world.names import NONE, hint, listing
+from models.world.names import NONE, application, hint, listing, quoted
 
 Type = frozenset[str]
 BOOLEAN: Type = frozenset({"true or false"})
@@ -146,18 +147,30 @@ class Checker:
             return scope[name]
         meanings = self.meanings(name)
         if not meanings:
-            known = [*scope, *self.constants, *self.parameters]
-            raise ExpressionError(f"nothing is called {name}{hint(name, known)}")
+            raise ExpressionError(self._unknown(name, scope))
         if len(meanings) > 1:
             raise ExpressionError(
                 f"{name} means several things: {listing(describe(m) for m in meanings)}; write a value as type.value"
             )
         return meanings[0]
 
+    def _unknown(self, name: str, scope: Scope) -> str:
+        if name in self.definitions:
+            written = application(name, (argument.name for argument in self.definitions[name].arguments))
+            return f"{name} is a definition or function: write {written if '(' in written else f'{name}()'}"
+        if name in self.classes or name in self.attributes:
+            return f"{name} is a kind, not an object or value"
+        values = (quoted(value) for values in self.attributes.values() for value in values)
+        known = (*scope, *self.constants, *self.parameters, "true", "false", NONE)
+        return f"nothing is called {name}{hint(name, chain(known, self.definitions, values))}"
+
     def _access(self, expression: Access, scope: Scope) -> Typed:
         if qualified_value(expression, scope, self.attributes):
             assert isinstance(expression.base, Variable)
             return Typed(frozenset({expression.base.name}), 1)
+        if isinstance(expression.base, Variable) and self._is_type_name(expression.base.name, scope):
+            kind, value = expression.base.name, expression.attribute
+            raise ExpressionError(f"{kind} has no value {value}{hint(value, self.attributes[kind])}")
         base = self._entity(expression.base, scope)
         found: set[str] = set()
         partial = NONE in base.type
@@ -171,6 +184,9 @@ class Checker:
             missing = expression.attribute
             raise ExpressionError(f"{describe(base.type)} has no attribute {missing}{hint(missing, known)}")
         return Typed(frozenset(found | {NONE} if partial else found), 1 + base.depth)
+
+    def _is_type_name(self, name: str, scope: Scope) -> bool:
+        return name in self.attributes and name not in scope and not self.meanings(name)
 
     def _attributes(self, kind: str) -> list[str]:
         return [*self.classes[kind].static, *self.classes[kind].state]
@@ -242,6 +258,8 @@ class Checker:
         """Raises ExpressionError for a kind the domain does not have."""
         for kind in kinds:
             if kind != NONE and kind not in self.classes and kind not in self.attributes:
+                if self.meanings(kind):
+                    raise ExpressionError(f"{kind} is not a kind: write == {kind}")
                 raise ExpressionError(f"no class or attribute is called {kind}{hint(kind, self._kinds())}")
 
     def _kinds(self) -> list[str]:

@@ -47,6 +47,13 @@ def name_fault(name: str) -> str | None:
     return f"{NONE} is the name of no value" if name == NONE else None
 
 
+def environment_name_fault(name: str) -> str | None:
+    """Why a text cannot name an environment, or None. The name is one segment of a URL path."""
+    if name in (".", "..") or "/" in name or "\\" in name:
+        return "the name is part of a web address: it may not hold / or \\, nor be . or .."
+    return name_fault(name)
+
+
 class _Reader:
     """Reads one domain, section by section."""
 

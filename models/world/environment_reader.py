@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from models.world.domain import Domain
-from models.world.domain_reader import name_fault, read_values
+from models.world.domain_reader import environment_name_fault, name_fault, read_values
 from models.world.grid import read_grid
 from models.world.limits import MAX_OBJECTS, MAX_SYNONYMS, MAX_VALUES, MAX_VARIABLES
 from models.world.model import Model, StateAttribute
@@ -35,7 +35,7 @@ class _Reader:
     static: dict[Symbol, dict[str, Symbol]] = field(default_factory=dict)
 
     def read(self) -> tuple[Model, Vocabulary] | None:
-        if fault := name_fault(self.spec.name):
+        if fault := environment_name_fault(self.spec.name):
             self.report.add(["name"], fault)
         parameters = self._parameters()
         self._values()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from models.logic.formula import Atom
 from models.world.actions import merge_outcomes
 from models.world.domain import Function
-from models.world.domain_reader import name_fault
+from models.world.domain_reader import environment_name_fault, name_fault
 from models.world.limits import MAX_EXPLICIT_CELLS
 from models.world.report import Report
 from models.world.resolution import bind_names
@@ -71,7 +71,7 @@ class ExplicitWorld:
 
 def read_explicit(spec: ExplicitSpec, report: Report) -> Vocabulary:
     """The vocabulary (its labels as nullary propositions); faults go to the report."""
-    if fault := name_fault(spec.name):
+    if fault := environment_name_fault(spec.name):
         report.add(["name"], fault)
     if spec.initial >= spec.states:
         report.add(["initial"], f"there is no state {spec.initial}: states are 0 to {spec.states - 1}")

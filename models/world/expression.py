@@ -15,6 +15,7 @@ from typing import TypeVar
 from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 from lark.exceptions import VisitError
 
+from models.world.hints import syntax_hint
 from models.world.limits import MAX_NESTING, MAX_TEXT
 
 
@@ -241,7 +242,7 @@ def parse_expression(text: str) -> Expression:
             raise ExpressionError("the expression ends too early") from None
         position: object = getattr(error, "pos_in_stream", None)
         start = position if isinstance(position, int) else 0
-        excerpt = repr(text[start : start + 20])
+        excerpt = f"{text[start : start + 20]!r}{syntax_hint(text, start)}"
         raise ExpressionError(f"cannot read the expression at character {start + 1}: {excerpt}") from None
     except VisitError as error:
         if isinstance(error.orig_exc, ExpressionError):

@@ -53,11 +53,10 @@ def ground(
 ) -> Grounding:
     """The symbols, of the given kinds if any, that a phrase may mean."""
     vocabulary = environment.vocabulary
-    spoken = _spoken(phrase)
+    spoken = spoken_words(phrase)
     if not spoken or len(spoken) > _LONGEST:
         return Grounding(phrase, ())
-    symbols = vocabulary.symbols(*kinds) if kinds is not None else vocabulary.symbols()
-    symbols = symbols if kinds is None or kinds else ()
+    symbols = symbols_of(vocabulary, kinds)
     for compare in (_same, _same_singular):
         found = _called(spoken, symbols, vocabulary, compare)
         if found:
@@ -66,11 +65,16 @@ def ground(
     return Grounding(phrase, tuple(typed or _described(spoken, symbols, vocabulary)))
 
 
-def _spoken(phrase: str) -> tuple[str, ...]:
+def spoken_words(phrase: str) -> tuple[str, ...]:
     """The words of a phrase without leading determiners, unless nothing else is left."""
     all_words = words(phrase[:1_000])
     start = next((i for i, word in enumerate(all_words) if word not in _DETERMINERS), 0)
     return all_words[start:]
+
+
+def symbols_of(vocabulary: Vocabulary, kinds: frozenset[str] | None) -> tuple[Symbol, ...]:
+    """The symbols of some kinds, or all for None."""
+    return () if kinds is not None and not kinds else vocabulary.symbols(*(kinds or ()))
 
 
 def _same(left: Iterable[str], right: Iterable[str]) -> bool:
@@ -90,11 +94,11 @@ def _called(
     """The symbols with this name or synonym. Both count alike: who gives a synonym wants it understood."""
     found: list[Candidate] = []
     for symbol in symbols:
-        if compare(_spoken(symbol.name), spoken):
+        if compare(spoken_words(symbol.name), spoken):
             found.append(Candidate(symbol, _name_reason(symbol, vocabulary)))
             continue
         synonyms = vocabulary.synonyms.get(symbol, ())
-        synonym = next((other for other in synonyms if compare(_spoken(other), spoken)), None)
+        synonym = next((other for other in synonyms if compare(spoken_words(other), spoken)), None)
         if synonym is not None:
             found.append(Candidate(symbol, f"{synonym} is a synonym of {symbol.name}"))
     return found

@@ -16,7 +16,7 @@ from models.world.environment_reader import read_environment
 from models.world.explicit import ExplicitWorld, read_explicit
 from models.world.expression import ExpressionError
 from models.world.library import builtin_domain, builtin_domains
-from models.world.names import clipped, hint
+from models.world.names import clipped, hint, listing
 from models.world.oomdp import OomdpWorld
 from models.world.report import Report
 from models.world.specs import ENVIRONMENT, ExplicitSpec, OomdpSpec
@@ -39,7 +39,11 @@ def load_environment(data: Mapping[str, Any]) -> Environment:
     return loaded
 
 
-def _shape(data: Mapping[str, Any], report: Report) -> OomdpSpec | ExplicitSpec | None:
+def _shape(data: object, report: Report) -> OomdpSpec | ExplicitSpec | None:
+    if isinstance(data, Mapping) and (kind := data.get("kind")) not in _KINDS:
+        wrong = "the kind is missing" if kind is None else "there is no such kind of environment"
+        report.add(["kind"], f"{wrong}: give {listing(_KINDS)}")
+        return None
     try:
         return ENVIRONMENT.validate_python(data)
     except ValidationError as error:

@@ -31,7 +31,12 @@ def words(text: str) -> tuple[str, ...]:
 
 def clipped(text: str) -> str:
     """The text, shortened if it is very long: what is wrong may hold a whole document."""
-    return text if len(text) <= 400 else f"{text[:400]}..."
+    return encodable(text if len(text) <= 400 else f"{text[:400]}...")
+
+
+def encodable(text: str) -> str:
+    """The text with lone surrogates, which JSON strings may hold and UTF-8 cannot, written out."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def singular(word: str) -> str:
@@ -50,9 +55,10 @@ def hint(name: str, known: Iterable[str]) -> str:
     nothing.
     """
     names = list(dict.fromkeys(islice(known, 2_000)))
-    close = difflib.get_close_matches(name[:200], names, n=1, cutoff=0.6)
+    by_case = {other.casefold(): other for other in reversed(names)}
+    close = difflib.get_close_matches(name[:200].casefold(), by_case, n=1, cutoff=0.6)
     if close:
-        return f" (did you mean {close[0]}?)"
+        return f" (did you mean {by_case[close[0]]}?)"
     if 0 < len(names) <= 8:
         return f" (known: {', '.join(names)})"
     return ""

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from models.errors import CqltlError, Place
 from models.world.errors import WorldError
-from models.world.names import clipped
+from models.world.names import clipped, encodable
 
 MAX_FAULTS = 50
 Path = tuple[str | int, ...]
@@ -14,7 +14,7 @@ Path = tuple[str | int, ...]
 
 def pointer(path: Path) -> str:
     """The JSON pointer (RFC 6901) of a path of keys and indices."""
-    return "".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in path)
+    return encodable("".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in path))
 
 
 class Report:

@@ -1,20 +1,43 @@
 """The shape of domains and environments as data; also the HTTP schema.
 
 Only the shape is checked here (which keys, which plain types). What the names and expressions mean is checked
-by `domain.read_domain` and `loading.load_environment`.
+by `domain.read_domain` and `loading.load_environment`. YAML and JSON read `0.9` and `true` as a number and a truth
+value; where an expression is expected they become its text.
 """
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, model_validator
 
 from models.world.limits import MAX_EXPLICIT_STATES
 
 
 class _Spec(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, populate_by_name=True)
+
+
+def _expression_text(value: object) -> str:
+    """`0.9` -> `"0.9"`, `True` -> `"true"`; text stays."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and abs(value) < _LARGEST_INTEGER:
+        return str(value)
+    if isinstance(value, float) and isfinite(value):
+        return repr(value)
+    raise ValueError("an expression is text, a finite number, true or false")
+
+
+_LARGEST_INTEGER = 10**300  # as a float it is finite
+_READ = "A number or truth value is read too."
+Text = Annotated[str, BeforeValidator(_expression_text)]
+"""The text of an expression; in the schema a string."""
+_NAME = "Name of the environment: one segment of a URL path, so no `/`, and not `.` or `..`."
+_State = Annotated[int, Field(ge=0, lt=MAX_EXPLICIT_STATES)]
 
 
 class ParameterSpec(_Spec):
@@ -43,7 +66,7 @@ class DefinitionSpec(_Spec):
     """A named expression for use in other expressions."""
 
     arguments: list[str] = Field(default_factory=list, description="`name: kinds` each, for example `x: box | toy`.")
-    expression: str = Field(alias="is", description="The value.")
+    expression: Text = Field(alias="is", description=f"The value: an expression. {_READ}")
 
 
 class FunctionSpec(DefinitionSpec):
@@ -57,10 +80,10 @@ class FunctionSpec(DefinitionSpec):
 class OutcomeSpec(_Spec):
     """One thing that may happen when an action is done."""
 
-    probability: str = Field("1", description="Numeric expression.")
-    set: dict[str, str] = Field(
+    probability: Text = Field("1", description="Numeric expression. A number is read too.")
+    set: dict[str, Text] = Field(
         default_factory=dict,
-        description="`object.attribute` to its new value; all expressions read the state before.",
+        description=f"`object.attribute` to its new value; all expressions read the state before. {_READ}",
     )
 
 
@@ -68,7 +91,7 @@ class ActionSpec(_Spec):
     """An action of the robot."""
 
     arguments: list[str] = Field(default_factory=list, description="`name: kinds` each.")
-    when: str = Field("true", description="Boolean expression: where the action is possible.")
+    when: Text = Field("true", description=f"Boolean expression: where the action is possible. {_READ}")
     outcomes: list[OutcomeSpec] = Field(min_length=1, description="Their probabilities sum to 1 where it is possible.")
 
 
@@ -85,7 +108,9 @@ class DomainSpec(_Spec):
     define: dict[str, DefinitionSpec] = Field(default_factory=dict, description="Named expressions.")
     functions: dict[str, FunctionSpec] = Field(default_factory=dict, description="Propositional functions.")
     actions: dict[str, ActionSpec] = Field(default_factory=dict, description="Actions.")
-    constraints: list[str] = Field(default_factory=list, description="Boolean expressions true in every legal state.")
+    constraints: list[Text] = Field(
+        default_factory=list, description=f"Boolean expressions true in every legal state. {_READ}"
+    )
 
 
 class ObjectSpec(_Spec):
@@ -111,8 +136,8 @@ class GridSpec(_Spec):
 class OomdpSpec(_Spec):
     """An environment of an object-oriented MDP domain: exactly one of `domain` and `domain_spec`."""
 
-    kind: Literal["oomdp"] = "oomdp"
-    name: str = Field(description="Name of the environment.")
+    kind: Literal["oomdp"] = Field(description="`oomdp`: objects, and actions on them.")
+    name: str = Field(description=_NAME)
     domain: str | None = Field(None, description="Name of a built-in domain.")
     domain_spec: DomainSpec | None = Field(None, description="The domain, written out.")
     parameters: dict[str, Annotated[float, Field(allow_inf_nan=False)]] = Field(
@@ -135,7 +160,7 @@ class OomdpSpec(_Spec):
 class TransitionSpec(_Spec):
     """What one action does in one state."""
 
-    source: int = Field(alias="from", ge=0, description="State in which the action is possible.")
+    source: _State = Field(alias="from", description="State in which the action is possible.")
     action: str = Field(min_length=1, description="Name of the action.")
     to: list[Annotated[list[Annotated[float, Field(allow_inf_nan=False)]], Field(min_length=2, max_length=2)]] = Field(
         min_length=1, description="Pairs of successor state and probability."
@@ -145,11 +170,11 @@ class TransitionSpec(_Spec):
 class ExplicitSpec(_Spec):
     """A Markov decision process listed state by state."""
 
-    kind: Literal["explicit"]
-    name: str = Field(description="Name of the environment.")
+    kind: Literal["explicit"] = Field(description="`explicit`: states and transitions.")
+    name: str = Field(description=_NAME)
     states: int = Field(ge=1, le=MAX_EXPLICIT_STATES, description="Number of states.")
-    initial: int = Field(0, ge=0, description="Initial state.")
-    labels: dict[str, list[int]] = Field(
+    initial: _State = Field(0, description="Initial state.")
+    labels: dict[str, list[_State]] = Field(
         default_factory=dict, description="Nullary proposition to the states in which it holds."
     )
     transitions: list[TransitionSpec] = Field(default_factory=list, description="Transitions; the rest do not exist.")

@@ -36,7 +36,7 @@ def refusals(*slugs: str) -> dict[int | str, dict[str, Any]]:
     }
 
 
-BODY = ("malformed-json", "body-too-large", "validation")
+BODY = ("malformed-json", "body-too-large", "unsupported-media-type", "validation")
 """What any route with a body may refuse."""
 GROUNDING = (
     "query-syntax",

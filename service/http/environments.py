@@ -10,7 +10,7 @@ from models.errors import Place
 from models.world import EnvironmentSpec, WorldError, load_environment
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, refusals
 from service.http.schemas import EnvironmentList, EnvironmentOut, EnvironmentSummary
-from service.http.views import environment_data
+from service.http.views import environment_data, location
 from service.store import StoredEnvironment
 
 router = APIRouter(prefix="/environments", tags=["environments"])
@@ -38,7 +38,7 @@ def post_environment(body: EnvironmentSpec, services: ServicesDep, response: Res
     name, data = _checked(body)
     with services.store.write() as transaction:
         stored = transaction.environments.add(name, body.kind, data)
-    response.headers["Location"] = f"/environments/{name}"
+    response.headers["Location"] = location("environments", name)
     return _out(stored)
 
 

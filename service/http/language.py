@@ -18,7 +18,7 @@ from service.http.schemas import (
     TranslateRequest,
     TranslateResponse,
 )
-from service.http.views import bindings_out, query_out, template_out, translated_out
+from service.http.views import bindings_out, location, query_out, template_out, translated_out
 from service.lessons import Lesson, learn_template
 from service.pipeline import ground, translate
 
@@ -55,9 +55,10 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
                     environment=body.environment,
                     translator=body.translator,
                     candidates=body.candidates,
+                    pointer=f"/texts/{index}",
                 )
             )
-            for text in body.texts
+            for index, text in enumerate(body.texts)
         ]
     )
 
@@ -85,6 +86,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
             "unused-parameter",
             "inconsistent-examples",
             "example-argument-not-found",
+            "example-too-general",
             "out-of-time",
             "overloaded",
         ),
@@ -102,7 +104,7 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
     )
     stored, created = await learn_template(services, lesson)
     response.status_code = 201 if created else 200
-    response.headers["Location"] = f"/templates/{stored.task}"
+    response.headers["Location"] = location("templates", stored.task)
     return template_out(stored)
 
 
@@ -113,10 +115,12 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
 )
 async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
     """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
-    environment, task = await run_sync(ground, services, body.contextual_query, body.environment)
+    environment, meaning = await run_sync(ground, services, body.contextual_query, body.environment)
+    task = meaning.task
     return GroundResponse(
         contextual_query=query_out(task.query),
         ltl=formula_text(task.formula),
         explanation=explain(task.formula, environment),
         bindings=bindings_out(task),
+        warnings=list(meaning.warnings),
     )

@@ -7,8 +7,22 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service.http.problems import problem_response
 
 
+DRAINED = 16
+"""How many times the limit is still read and thrown away before the answer."""
+
+
 class _TooLarge(Exception):
     pass
+
+
+async def _drain(receive: Receive, most: int) -> None:
+    """Read on: a client that still sends when the connection closes would see a reset and not the answer."""
+    read = 0
+    while read <= most:
+        message = await receive()
+        read += len(message.get("body", b""))
+        if message["type"] != "http.request" or not message.get("more_body", False):
+            return
 
 
 class BodyLimit:
@@ -22,12 +36,13 @@ class BodyLimit:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        received, exceeded, started = 0, False, False
+        received, more, exceeded, started = 0, True, False, False
 
         async def counted() -> Message:
-            nonlocal received, exceeded
+            nonlocal received, more, exceeded
             message = await receive()
             received += len(message.get("body", b""))
+            more = message.get("more_body", False)
             if received > self._limit:
                 exceeded = True
                 raise _TooLarge
@@ -49,6 +64,8 @@ class BodyLimit:
                 if started:
                     raise
         if exceeded and not started:
+            if more:
+                await _drain(receive, DRAINED * self._limit)
             response = problem_response("body-too-large", f"the body has more than {self._limit} bytes")
             response.headers["Connection"] = "close"
             await response(scope, receive, send)

@@ -78,9 +78,10 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
     return PlanResponse(
         id=planned.policy_id,
         outcome=answer.outcome,
-        contextual_query=None if planned.task is None else query_out(planned.task.query),
+        contextual_query=None if planned.meaning is None else query_out(planned.meaning.task.query),
         ltl=formula_text(planned.formula),
         explanation=explain(planned.formula, planned.environment),
+        warnings=[] if planned.meaning is None else list(planned.meaning.warnings),
         environment=planned.environment.name,
         probability=Bounds(lower=answer.lower, upper=answer.upper),
         expected_steps=answer.expected_steps,

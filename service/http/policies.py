@@ -9,11 +9,34 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Query, Response
 
 from models.planning import to_json
-from service.http.dependencies import BODY, ServicesDep, refusals
-from service.http.schemas import PolicyOut, StepRequest, StepResponse
+from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, refusals
+from service.http.schemas import PolicyList, PolicyOut, PolicyRow, StepRequest, StepResponse
 from service.places import at
 
 router = APIRouter(prefix="/policies", tags=["policies"])
+
+
+@router.get("", operation_id="listPolicies", responses=refusals("validation"))
+def get_policies(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) -> PolicyList:
+    """List the stored policies in order of id."""
+    with services.store.read() as transaction:
+        found = transaction.policies.page(after=cursor, limit=limit + 1)
+    return PolicyList(
+        items=[PolicyRow(id=p.id, environment=p.environment, ltl=p.ltl) for p in found[:limit]],
+        next=found[limit - 1].id if len(found) > limit else None,
+    )
+
+
+@router.delete(
+    "/{policy_id}",
+    operation_id="deletePolicy",
+    status_code=204,
+    response_class=Response,
+    responses=refusals("unknown-policy"),
+)
+def delete_policy(policy_id: str, services: ServicesDep) -> None:
+    """Forget a policy. Planning the same again brings it back under the same id."""
+    services.forget_policy(policy_id)
 
 
 @router.get(

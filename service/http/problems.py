@@ -14,6 +14,7 @@ from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
+from models.source import locate
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:cqltl:problem:"
@@ -23,6 +24,7 @@ STATUS: dict[str, int] = {
     "malformed-json": 400,
     "validation": 422,
     "body-too-large": 413,
+    "unsupported-media-type": 415,
     "method-not-allowed": 405,
     "http-error": 400,
     "internal": 500,
@@ -47,6 +49,7 @@ STATUS: dict[str, int] = {
     "unused-parameter": 422,
     "inconsistent-examples": 422,
     "example-argument-not-found": 422,
+    "example-too-general": 422,
     # language
     "text-too-long": 422,
     "not-understood": 422,
@@ -112,20 +115,32 @@ def _refused(_request: Request, error: Exception) -> JSONResponse:
         "errors": [ErrorPlace(pointer=place.pointer, detail=place.detail) for place in error.places]
     }
     members.update({name: getattr(error, name) for name in ("line", "column", "caret") if hasattr(error, name)})
-    if hasattr(error, "candidates"):
-        members["choices"] = [candidate.symbol.name for candidate in error.candidates]
+    if hasattr(error, "choices"):
+        members["choices"] = list(error.choices)
     return problem_response(error.slug, error.detail, **members)
 
 
-def _invalid(_request: Request, error: Exception) -> JSONResponse:
+def _invalid(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     found = error.errors()
     if any(item["type"] == "json_invalid" for item in found):
-        reason = found[0].get("ctx", {}).get("error", "it does not parse")
-        return problem_response("malformed-json", f"the body is not JSON: {reason}")
+        return _malformed(found[0], error.body)
+    if isinstance(error.body, (str, bytes)) and "json" not in request.headers.get("content-type", ""):
+        detail = "the body is not marked as JSON: send it with the header Content-Type: application/json"
+        return problem_response("unsupported-media-type", detail)
     places = [ErrorPlace(pointer=_pointer(item, error.body), detail=item["msg"]) for item in found]
     first = places[0]
     return problem_response("validation", f"{first.pointer or 'the request'}: {first.detail}", errors=places)
+
+
+def _malformed(item: Mapping[str, Any], body: Any) -> JSONResponse:
+    """A body that is not JSON, with line, column and caret where the parser says how far it got."""
+    detail = f"the body is not JSON: {item.get('ctx', {}).get('error', 'it does not parse')}"
+    offset = item["loc"][-1]
+    if not isinstance(body, str) or not isinstance(offset, int):
+        return problem_response("malformed-json", detail)
+    place = locate(body, min(offset, len(body)))
+    return problem_response("malformed-json", detail, line=place.line, column=place.column, caret=place.caret)
 
 
 def _pointer(item: Mapping[str, Any], body: Any) -> str:
@@ -144,6 +159,8 @@ def _pointer(item: Mapping[str, Any], body: Any) -> str:
             value = value[part]
         except (KeyError, IndexError, TypeError):
             value = None
+    if item["type"].startswith("union_tag"):
+        parts.append(item["ctx"]["discriminator"].strip("'"))
     return "".join(f"/{part}" for part in parts)
 
 

@@ -75,6 +75,7 @@ class CandidateOut(BaseModel):
     confidence: float = Field(description="Probability that the translator gives this reading.")
     explanation: str | None = Field(description="The formula read back in English.")
     bindings: list[BindingOut]
+    warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
     issues: list[ErrorPlace] = Field(description="Why there is no `ltl`.")
 
 
@@ -98,6 +99,7 @@ class TranslateResponse(BaseModel):
     bindings: list[BindingOut]
     candidates: list[CandidateOut]
     question: QuestionOut | None
+    warnings: list[str]
     issues: list[ErrorPlace]
 
 
@@ -175,6 +177,7 @@ class GroundResponse(BaseModel):
     ltl: str
     explanation: str
     bindings: list[BindingOut]
+    warnings: list[str] = Field(description="What to know of the task's template.")
 
 
 class EnvironmentSummary(BaseModel):
@@ -225,6 +228,21 @@ class PlanRequest(Request):
             if sum(getattr(self, name) is not None for name in names) != 1:
                 raise ValueError(f"give exactly one of {', '.join(names)}")
         return self
+
+
+class PolicyRow(BaseModel):
+    """One policy of a list."""
+
+    id: str
+    environment: str
+    ltl: str
+
+
+class PolicyList(BaseModel):
+    """A page of policies."""
+
+    items: list[PolicyRow]
+    next: str | None = Field(description="Pass as `cursor` for the next page; null on the last.")
 
 
 class Bounds(BaseModel):
@@ -278,6 +296,7 @@ class PlanResponse(BaseModel):
     contextual_query: ContextualQueryOut | None
     ltl: str
     explanation: str
+    warnings: list[str] = Field(description="What to know of the template that the formula came from.")
     environment: str
     probability: Bounds = Field(description="Maximal probability of satisfying the formula.")
     expected_steps: float | None = Field(description="Minimal expected steps until the outcome is decided.")
@@ -340,7 +359,9 @@ class StepRequest(Request):
 class StepResponse(BaseModel):
     """What to do next."""
 
-    action: str | None = Field(description="Null when there is nothing left to do.")
+    action: str | None = Field(
+        description="Null when there is nothing left to do; while `running`, when no action is possible: observe again."
+    )
     memory: int = Field(description="Send it with the next state.")
     probability: float = Field(description="Of satisfying the formula from here.")
     expected_steps: float | None = Field(description="Until the outcome is decided.")

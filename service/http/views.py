@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
+from urllib.parse import quote
 
 from models.errors import CqltlError
 from models.logic import to_text as formula_text
@@ -26,6 +27,11 @@ from service.store import StoredTemplate
 def environment_data(spec: EnvironmentSpec) -> dict[str, Any]:
     """The data of an environment as it was sent, defaults left out, for `models.world.load_environment`."""
     return spec.model_dump(mode="json", by_alias=True, exclude_defaults=True) | {"kind": spec.kind}
+
+
+def location(*parts: str) -> str:
+    """The path of a resource, with each part fit for a header."""
+    return "".join(f"/{quote(part, safe='')}" for part in parts)
 
 
 def query_out(query: ContextualQuery) -> ContextualQueryOut:
@@ -81,18 +87,20 @@ def translated_out(translated: Translated) -> TranslateResponse:
         bindings=best.bindings if best else [],
         candidates=candidates,
         question=_question(translated),
+        warnings=best.warnings if best else [],
         issues=best.issues if best else [],
     )
 
 
 def _candidate(reading: Reading, environment: Environment | None) -> CandidateOut:
-    task = reading.task
+    task = None if reading.meaning is None else reading.meaning.task
     return CandidateOut(
         contextual_query=query_out(reading.query),
         ltl=None if task is None else formula_text(task.formula),
         confidence=round(reading.confidence, 6),
         explanation=None if task is None else explain(task.formula, environment),
         bindings=[] if task is None else bindings_out(task),
+        warnings=[] if reading.meaning is None else list(reading.meaning.warnings),
         issues=[] if reading.refusal is None else _issues(reading.refusal),
     )
 
@@ -109,5 +117,5 @@ def _question(translated: Translated) -> QuestionOut | None:
     return QuestionOut(
         argument=refusal.position,
         text=f"which {refusal.phrase}?",
-        choices=[candidate.symbol.name for candidate in refusal.candidates],
+        choices=list(refusal.choices),
     )

@@ -8,6 +8,7 @@ from typing import Any
 
 from sqlalchemy import Connection, delete, insert, select, update
 
+from models.errors import Place
 from service.errors import EnvironmentExistsError, UnknownEnvironmentError
 from service.store.tables import environments
 
@@ -45,7 +46,8 @@ class EnvironmentRepository:
     def add(self, name: str, kind: str, data: Mapping[str, Any]) -> StoredEnvironment:
         """Store a new environment; raises `EnvironmentExistsError`."""
         if self._connection.scalar(select(environments.c.name).where(environments.c.name == name)) is not None:
-            raise EnvironmentExistsError(f'an environment called "{name}" is stored already; PUT replaces it')
+            detail = f'an environment called "{name}" is stored already; PUT replaces it'
+            raise EnvironmentExistsError(detail, places=[Place("/name", detail)])
         self._connection.execute(insert(environments).values(name=name, kind=kind, data=dict(data), revision=1))
         return StoredEnvironment(name, kind, data, 1)
 

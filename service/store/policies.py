@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import Connection, delete, insert, select
 
 from service.errors import UnknownPolicyError
 from service.store.tables import policies
@@ -20,6 +20,15 @@ class StoredPolicy:
     data: bytes
 
 
+@dataclass(frozen=True, slots=True)
+class PolicyEntry:
+    """What a list says of a policy."""
+
+    id: str
+    environment: str
+    ltl: str
+
+
 class PolicyRepository:
     """Policies by id, within one transaction."""
 
@@ -32,6 +41,19 @@ class PolicyRepository:
         if row is None:
             raise UnknownPolicyError(f'no policy has the id "{policy_id[:100]}"')
         return StoredPolicy(row.id, row.environment, row.ltl, row.data)
+
+    def page(self, *, after: str = "", limit: int) -> list[PolicyEntry]:
+        """Up to `limit` policies in order of id without their bytes, from the first id greater than `after`."""
+        columns = (policies.c.id, policies.c.environment, policies.c.ltl)
+        rows = self._connection.execute(
+            select(*columns).where(policies.c.id > after).order_by(policies.c.id).limit(limit)
+        )
+        return [PolicyEntry(row.id, row.environment, row.ltl) for row in rows]
+
+    def delete(self, policy_id: str) -> None:
+        """Remove the policy; raises `UnknownPolicyError`."""
+        self.get(policy_id)
+        self._connection.execute(delete(policies).where(policies.c.id == policy_id))
 
     def add(self, policy: StoredPolicy) -> None:
         """Store the policy if it is not stored yet."""

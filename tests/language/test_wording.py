@@ -8,7 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language import ExampleArgumentNotFoundError, TaughtTranslator, TextTooLongError, Wording
+from models.language import (
+    ExampleArgumentNotFoundError,
+    ExampleTooGeneralError,
+    TaughtTranslator,
+    TextTooLongError,
+    Wording,
+)
 from models.queries import ContextualQuery, parse_query
 
 
@@ -73,9 +79,23 @@ def test_the_most_literal_wording_is_read_first() -> None:
     assert translator.translate("bring the cup here") == found[:1]
 
 
-def test_a_wording_of_nothing_but_slots_gives_up_in_time() -> None:
+@pytest.mark.parametrize(("utterance", "query"), [("kitchen", "go(kitchen)"), ("the ball, a box", "put(ball, box)")])
+def test_an_utterance_of_nothing_but_arguments_is_refused(utterance: str, query: str) -> None:
+    with pytest.raises(ExampleTooGeneralError):
+        Wording.of(utterance, parse_query(query))
+
+
+def test_readings_of_equally_literal_wordings_share_the_confidence() -> None:
+    translator = TaughtTranslator.of(
+        [("tidy the kitchen", parse_query("clean(kitchen)")), ("tidy the ball", parse_query("stow(ball)"))]
+    )
+    found = translator.translate("tidy the cup", candidates=3)
+    assert [(str(t.query), t.confidence) for t in found] == [("clean(cup)", 0.5), ("stow(cup)", 0.5)]
+
+
+def test_a_wording_of_many_slots_gives_up_in_time() -> None:
     slots = [f"w{number}" for number in range(16)]
-    wording = Wording.of(" ".join(slots), ContextualQuery("many", tuple(slots)))
+    wording = Wording.of(" ".join(slots) + " end", ContextualQuery("many", tuple(slots)))
     started = time.monotonic()
     wording.match(["word"] * 200)
     assert time.monotonic() - started < 2

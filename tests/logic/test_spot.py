@@ -36,7 +36,6 @@ from models.logic import (
     translate,
 )
 from models.logic.formula import Op
-from models.logic.spot import rewrite
 from tests.logic.lasso import holds
 from tests.logic.strategies import cosafe_formulas, formulas, plain_atoms
 
@@ -228,12 +227,6 @@ def test_equivalent_formulas_agree_on_words_and_others_do_not(left: Formula, rig
     assert not is_valid(left) or all(holds(left, *lasso) for lasso in lassos)
 
 
-@given(formulas(plain_atoms, max_leaves=8))
-@settings(max_examples=100, deadline=None)
-def test_rewriting_keeps_the_meaning(formula: Formula) -> None:
-    assert spot.are_equivalent(to_text(rewrite(formula)), to_text(formula))
-
-
 def test_atoms_with_arguments_are_told_apart_by_value() -> None:
     assert equivalent(parse('F in(a, "b")'), parse("F in(a, b)"))
     assert not equivalent(parse("F in(a, b)"), parse("F in(b, a)"))
@@ -272,7 +265,6 @@ def test_translation_does_not_depend_on_what_went_before() -> None:
     again = translate(formula)
     assert again.hoa == first.hoa
     assert (again.successors == first.successors).all()
-    assert rewrite(parse("F z | F y | a & b")) == rewrite(parse("F z | F y | a & b"))
 
 
 def test_letters_and_reading_are_vectorised() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ from models.planning import (
     to_bytes,
     to_json,
 )
-from models.world import StateError, World, compile_world, load_environment, toys_spec
+from models.world import StateError, Variable, World, compile_world, load_environment, toys_spec
 from tests.planning.doubles import ArrayWorld
 
 TASK = "F (in(cylinder, box) & F at(box, kitchen))"
@@ -59,8 +59,8 @@ def test_states_by_name_are_the_worlds(world: World, policy: Policy) -> None:
 
 
 def test_a_forbidden_state_is_refused_and_has_no_action(world: World, policy: Policy) -> None:
-    held = {"box": {"in": "robot"}, "cylinder": {"in": "robot"}}
-    with pytest.raises(StateError):
+    held = {"robot": {"at": "kitchen"}, "box": {"in": "robot"}, "cylinder": {"in": "robot"}}
+    with pytest.raises(StateError, match="does not allow"):
         policy.step(held, 0)
     invalid = np.flatnonzero(~world.valid())
     assert len(invalid)
@@ -77,6 +77,36 @@ def test_unknown_names_are_refused_with_their_place(policy: Policy) -> None:
     assert {place.pointer for place in caught.value.places} == {"/box/in", "/dog"}
 
 
+def test_a_step_makes_up_nothing_that_was_not_observed(policy: Policy) -> None:
+    with pytest.raises(StateError, match="missing: in of box, in of cylinder") as caught:
+        policy.step({"robot": {"at": "kitchen"}, "box": {}}, 0)
+    assert {(place.pointer, place.detail) for place in caught.value.places} == {
+        ("/box/in", "missing"),
+        ("/cylinder/in", "missing"),
+    }
+    # What is left out is said before a constraint that only the made-up rest would break.
+    with pytest.raises(StateError, match="missing: at of robot"):
+        policy.step({"box": {"in": "robot"}, "cylinder": {"in": "robot"}}, 0)
+
+
+def test_at_most_twenty_missing_attributes_are_placed_and_their_names_escaped(policy: Policy) -> None:
+    variables = (*(Variable(f"door {n}", "a/b", ("open",)) for n in range(23)), *policy.variables)
+    with pytest.raises(StateError, match="and 6 more") as caught:
+        replace(policy, variables=variables).step({}, 0)
+    assert [place.pointer for place in caught.value.places] == [f"/door {n}/a~1b" for n in range(20)]
+
+
+def test_where_no_action_is_enabled_a_step_is_waited_and_the_memory_moves_on() -> None:
+    policy = plan(ArrayWorld(2, {0: {"go": {1: 1.0}}}, {"a": frozenset({1})}), parse("F (a & X X a)")).policy
+    assert policy is not None
+    memory, told = policy.initial_memory, []
+    for state in (0, 1, 1, 1):
+        step = policy.step(state, memory)
+        told.append((step.action, step.status, step.expected_steps))
+        memory = step.memory
+    assert told == [("go", "running", 3), (None, "running", 2), (None, "running", 1), (None, "satisfied", 0)]
+
+
 @pytest.mark.parametrize("memory", [-1, 99])
 def test_an_unknown_memory_is_refused(policy: Policy, memory: int) -> None:
     with pytest.raises(InvalidMemoryError):
@@ -88,7 +118,8 @@ def test_a_lost_cause_is_said(world: World) -> None:
         world, parse("!at(robot, kitchen) U in(cylinder, box)"), initial=world.encode({"robot": {"at": "bedroom"}})
     )
     assert found.policy is not None
-    step = found.policy.step({"robot": {"at": "kitchen"}}, found.policy.initial_memory)
+    there = world.decode(world.encode({"robot": {"at": "kitchen"}}))
+    step = found.policy.step(there, found.policy.initial_memory)
     assert (step.status, step.action, step.done, step.probability) == ("lost", None, False, 0.0)
 
 
@@ -147,36 +178,3 @@ def test_simulation_cuts_off_what_does_not_end(world: World, policy: Policy) -> 
     runs = simulate(world, policy, runs=20, seed=0, max_steps=2)
     assert not runs.decided.any()
     assert runs.steps.tolist() == [2] * 20
-
-
-def test_the_trajectory_is_a_run_of_the_policy(world: World) -> None:
-    result = plan(world, parse(TASK))
-    assert result.policy is not None
-    assert result.trajectory is not None
-    assert result.trajectory.complete
-    steps = result.trajectory.steps
-    assert (steps[0].state, steps[0].memory) == (world.initial, result.initial_memory)
-    for here, there in pairwise(steps):
-        step = result.policy.step(here.state, here.memory)
-        assert here.action is not None
-        assert step.action == here.action
-        answer = world.outcomes(world.actions.index(here.action), np.array([here.state]))
-        assert there.state in answer.successor[answer.probability[:, 0] > 0, 0]
-        assert there.memory == step.memory
-    assert result.policy.step(steps[-1].state, steps[-1].memory).done
-
-
-def test_the_trajectory_passes_over_what_changes_nothing() -> None:
-    model = ArrayWorld(3, {0: {"try": {0: 0.8, 1: 0.1, 2: 0.1}}, 1: {"go": {2: 1.0}}}, {"a": frozenset({2})})
-    found = plan(model, parse("F a")).trajectory
-    assert found is not None
-    assert [step.state for step in found.steps] == [0, 1, 2]
-
-
-def test_the_trajectory_ends_where_only_visited_states_follow() -> None:
-    # In 1 the likeliest way on that was not visited leads to 2, and from 2 only back.
-    moves = {0: {"go": {1: 1.0}}, 1: {"go": {2: 0.9, 3: 0.1}}, 2: {"go": {1: 1.0}}}
-    found = plan(ArrayWorld(4, moves, {"a": frozenset({3})}), parse("F a")).trajectory
-    assert found is not None
-    assert not found.complete
-    assert [step.state for step in found.steps] == [0, 1, 2]

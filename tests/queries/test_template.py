@@ -21,7 +21,9 @@ from models.world import (
     TypeMismatchError,
     UnknownObjectError,
     UnknownPropositionError,
+    builtin_environments,
     load_environment,
+    toys_spec,
 )
 
 
@@ -90,3 +92,34 @@ def test_a_world_without_the_function_is_refused(store: Environment) -> None:
     other = load_environment({"name": "tiny", "kind": "explicit", "states": 1, "labels": {"a": [0]}})
     with pytest.raises(UnknownPropositionError, match="lies"):
         evaluate(taught(store, "see(ball, p)", "F lies(ball, p)"), parse_query("see(ball, p)"), other)
+
+
+@pytest.mark.parametrize(
+    ("query", "expected"),
+    [
+        ("pickup_colored(toy, red)", "F (holding(cylinder) & colored(cylinder, red))"),
+        ("pickup_colored(one, green)", "F (holding(sphere) & colored(sphere, green))"),
+        ("pickup_colored(small one, orange)", "F (holding(orange) & colored(orange, orange))"),
+        # what is named is meant, whatever is said of it: the formula then cannot be satisfied
+        ("pickup_colored(cylinder, green)", "F (holding(cylinder) & colored(cylinder, green))"),
+    ],
+)
+def test_attribute_values_help_to_find_the_object(query: str, expected: str) -> None:
+    toys = load_environment(dict(builtin_environments())["toys"])
+    template = taught(toys, "pickup_colored(sphere, red)", "F (holding(sphere) & colored(sphere, red))")
+    assert formula_text(evaluate(template, parse_query(query), toys).formula) == expected
+
+
+@pytest.mark.parametrize(
+    ("query", "error", "said"),
+    [
+        ("pickup_colored(toy, yellow)", UnknownObjectError, '"yellow toy"'),
+        ("pickup_colored(toy, blue)", AmbiguousGroundingError, '"blue toy"'),
+    ],
+)
+def test_an_object_that_the_values_do_not_settle_is_refused(query: str, error: type[CqltlError], said: str) -> None:
+    spec = toys_spec(columns=2, rows=1, toys=[("cube", "blue"), ("sphere", "blue"), ("cone", "red")])
+    toys = load_environment(spec)
+    template = taught(toys, "pickup_colored(cone, red)", "F (holding(cone) & colored(cone, red))")
+    with pytest.raises(error, match=said):
+        evaluate(template, parse_query(query), toys)

@@ -97,3 +97,10 @@ def test_a_server_that_is_not_there(tmp_path: Path) -> None:
     result = run_cli("translate", "go", "--server", "http://127.0.0.1:9", data=tmp_path)
     assert result.returncode == 1
     assert "http://127.0.0.1:9/translate" in result.stderr
+
+
+def test_a_port_that_is_taken(client: httpx.Client, tmp_path: Path) -> None:
+    result = run_cli("serve", "--port", str(client.base_url.port), data=tmp_path / "unused")
+    assert result.returncode == 1
+    assert "--port" in result.stderr
+    assert not (tmp_path / "unused").exists()

@@ -67,10 +67,10 @@ def test_a_replaced_environment_is_planned_anew(client: httpx.Client) -> None:
 @pytest.mark.parametrize(
     ("spec", "slug", "status", "pointers"),
     [
-        (named("toys"), "environment-exists", 409, []),
+        (named("toys"), "environment-exists", 409, ["/name"]),
         (named("bad", domain="lego"), "invalid-environment", 422, ["/domain"]),
         (named("bad", color="red"), "validation", 422, ["/color"]),
-        ({"name": "bad"}, "validation", 422, [""]),
+        ({"name": "bad"}, "validation", 422, ["/kind"]),
         ({"name": "bad", "kind": "oomdp"}, "validation", 422, [""]),
         ([], "validation", 422, [""]),
         ({"name": "bad", "kind": "explicit", "states": 2, "initial": 2}, "invalid-environment", 422, ["/initial"]),
@@ -111,3 +111,15 @@ def test_a_deleted_template_is_gone(client: httpx.Client) -> None:
     assert client.delete("/templates/fleeting").status_code == 204
     check_problem(client.get("/templates/fleeting"), "unknown-template", 404)
     check_problem(client.delete("/templates/fleeting"), "unknown-template", 404)
+
+
+def test_names_in_any_script(client: httpx.Client) -> None:
+    response = client.post("/environments", json=named("склад 1"))
+    assert response.status_code == 201
+    assert client.get(response.headers["location"]).json()["name"] == "склад 1"
+    assert client.delete(response.headers["location"]).status_code == 204
+
+
+@pytest.mark.parametrize("name", ["a/b", "..", "."])
+def test_a_name_that_no_path_can_hold_is_refused(client: httpx.Client, name: str) -> None:
+    check_problem(client.post("/environments", json=named(name)), "invalid-environment", 422, ["/name"])

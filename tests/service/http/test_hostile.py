@@ -103,6 +103,12 @@ def test_a_body_of_unknown_length_is_counted(client: httpx.Client) -> None:
     check_problem(response, "body-too-large", 413)
 
 
+def test_a_body_whose_last_chunk_is_too_much(client: httpx.Client) -> None:
+    chunks = iter([b'{"text": "' + b"a" * 1_048_000, b"a" * 1_000])
+    response = client.post("/translate", content=chunks, headers={"content-type": "application/json"}, timeout=20)
+    check_problem(response, "body-too-large", 413)
+
+
 def test_unknown_paths_and_methods(client: httpx.Client) -> None:
     check_problem(client.get("/nowhere"), "not-found", 404)
     check_problem(client.get("/translate"), "method-not-allowed", 405)
@@ -110,10 +116,19 @@ def test_unknown_paths_and_methods(client: httpx.Client) -> None:
     check_problem(client.get("/environments/%00"), "unknown-environment", 404)
 
 
-def test_a_form_is_not_json(client: httpx.Client) -> None:
-    response = client.post("/translate", data={"text": "Pickup the sphere"})
-    assert 400 <= response.status_code < 500
-    check_problem(response, "validation", 422)
+def test_a_body_that_is_not_marked_as_json(client: httpx.Client) -> None:
+    text = '{"text": "Pickup the sphere"}'
+    for media_type in ("application/x-www-form-urlencoded", "text/plain"):
+        response = client.post("/translate", content=text, headers={"content-type": media_type})
+        check_problem(response, "unsupported-media-type", 415)
+
+
+def test_malformed_json_has_line_and_column(client: httpx.Client) -> None:
+    text = '{"text": "Pickup the sphere",\n "environment" "toys"}'
+    response = client.post("/translate", content=text, headers={"content-type": "application/json"})
+    problem = check_problem(response, "malformed-json", 400)
+    assert (problem["line"], problem["column"]) == (2, 16)
+    assert problem["caret"] == ' "environment" "toys"}\n               ^'
 
 
 def test_the_server_answers_while_it_plans(client: httpx.Client) -> None:

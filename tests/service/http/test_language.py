@@ -271,3 +271,87 @@ def test_a_template_of_one_domain_needs_the_functions_of_another(client: httpx.C
 def test_a_template_works_in_any_domain_with_its_functions(client: httpx.Client) -> None:
     response = client.post("/ground", json={"contextual_query": "navigate_one(bedroom)", "environment": "toys"})
     assert response.json()["ltl"] == "F at(robot, bedroom)"
+
+
+def learn(client: httpx.Client, query: str, ltl: str, *examples: str, environment: str = "toys") -> httpx.Response:
+    body = {"contextual_query": query, "ltl": ltl, "environment": environment, "examples": list(examples)}
+    return client.post("/learn", json=body)
+
+
+def test_an_utterance_of_nothing_but_arguments_is_refused(client: httpx.Client, snapshot: Snapshot) -> None:
+    before = snapshot()
+    response = learn(client, "gogo(kitchen)", "F at(robot, kitchen)", "kitchen")
+    check_problem(response, "example-too-general", 422, ["/examples/0"])
+    assert snapshot() == before
+
+
+def test_a_taught_wording_gives_way_where_it_makes_no_sense(client: httpx.Client) -> None:
+    assert learn(client, "collect(sphere)", "F holding(sphere)", "go to the sphere").status_code == 201
+    taught = client.post("/translate", json={"text": "go to the cylinder", "environment": "toys"}).json()
+    assert taught["ltl"] == "F holding(cylinder)"
+    other = client.post("/translate", json={"text": "go to the kitchen", "environment": "toys"}).json()
+    assert other["contextual_query"]["text"] == "navigate_one(kitchen)"
+    assert other["ltl"] == "F at(robot, kitchen)"
+    client.delete("/templates/collect")
+
+
+def test_the_wording_taught_with_two_meanings_is_read_by_what_fits(client: httpx.Client) -> None:
+    learn(client, "clean(kitchen)", "F at(robot, kitchen)", "tidy the kitchen")
+    learn(client, "tidy_up(sphere)", "F in(sphere, box)", "tidy the sphere")
+
+    def translate(text: str) -> str:
+        return str(client.post("/translate", json={"text": text, "environment": "toys"}).json()["ltl"])
+
+    assert translate("tidy the bedroom") == "F at(robot, bedroom)"
+    assert translate("tidy the cylinder") == "F in(cylinder, box)"
+
+
+def test_a_wording_with_two_meanings_that_both_fit_is_not_planned(client: httpx.Client) -> None:
+    learn(client, "fetch1(sphere)", "F holding(sphere)", "fetch me the sphere")
+    learn(client, "fetch2(sphere)", "F in(sphere, box)", "fetch me the sphere")
+    body = {"text": "fetch me the cylinder", "environment": "toys"}
+    answer = client.post("/translate", json={**body, "candidates": 2}).json()
+    assert [candidate["confidence"] for candidate in answer["candidates"]] == [0.5, 0.5]
+    problem = check_problem(client.post("/plan", json=body), "ambiguous-command", 422, ["/text"])
+    assert problem["choices"] == ["fetch1(cylinder)", "fetch2(cylinder)"]
+
+
+@pytest.mark.parametrize(
+    ("text", "ltl"),
+    [
+        ("pick up the red toy", "F (holding(cylinder) & colored(cylinder, red))"),
+        ("pick up the green one", "F (holding(sphere) & colored(sphere, green))"),
+        ("pick up the orange orange", "F (holding(orange) & colored(orange, orange))"),
+    ],
+)
+def test_attributes_find_the_object(client: httpx.Client, text: str, ltl: str) -> None:
+    assert client.post("/translate", json={"text": text, "environment": "toys"}).json()["ltl"] == ltl
+
+
+def test_warnings_come_with_the_translation(client: httpx.Client) -> None:
+    warnings = client.get("/templates/ship").json()["warnings"]
+    assert client.post("/translate", json={"text": SHIP, "environment": "toys"}).json()["warnings"] == warnings
+    query = {"contextual_query": "ship(cylinder, box, bedroom)", "environment": "toys"}
+    assert client.post("/ground", json=query).json()["warnings"] == warnings
+    assert client.post("/plan", json=query).json()["warnings"] == warnings
+
+
+def test_replacing_keeps_what_people_say(client: httpx.Client) -> None:
+    learn(client, "keep(sphere)", "F holding(sphere)", "keep hold of the sphere")
+    body = {"contextual_query": "keep(sphere)", "ltl": "F in(sphere, box)", "environment": "toys", "replace": True}
+    assert client.post("/learn", json=body).json()["examples"] == ["keep hold of the sphere"]
+    wider = {**body, "contextual_query": "keep(sphere, box)"}
+    assert client.post("/learn", json=wider).json()["examples"] == []
+
+
+def test_names_in_any_script(client: httpx.Client) -> None:
+    response = learn(client, "взять(sphere)", "F holding(sphere)")
+    assert response.status_code == 201
+    location = response.headers["location"]
+    assert location.isascii()
+    assert client.get(location).json()["task"] == "взять"
+
+
+def test_a_text_of_a_batch_is_named(client: httpx.Client) -> None:
+    body = {"texts": ["Pickup the sphere", "go " * 600]}
+    check_problem(client.post("/translate/batch", json=body), "text-too-long", 422, ["/texts/1"])

@@ -11,6 +11,7 @@ from models.world import toys_spec
 from tests.service.conftest import Snapshot, check_problem
 
 SHIP = "Put the cylinder in the box, then put the box in the bedroom"
+WHERE = {"robot": {"at": "kitchen"}, "box": {"in": "kitchen"}, "sphere": {"in": "kitchen"}}
 TINY: dict[str, Any] = {
     "name": "tiny",
     "kind": "explicit",
@@ -110,8 +111,9 @@ def test_planning_from_a_given_state(client: httpx.Client) -> None:
 
 def test_a_moved_robot_goes_on_from_where_it_is(client: httpx.Client) -> None:
     answer = plan(client, text="Pickup the sphere", environment="toys-4x1-sphere")
-    there = answer["trajectory"][-2]["state"]["sphere"]["in"]
-    told = client.post(f"{answer['policy']['url']}/step", json={"state": {"robot": {"at": there}}}).json()
+    start = answer["initial"]["state"]
+    moved = {**start, "robot": {"at": start["sphere"]["in"]}}
+    told = client.post(f"{answer['policy']['url']}/step", json={"state": moved}).json()
     assert told["action"] == "pick(sphere)"
     assert told["expected_steps"] == 1
 
@@ -162,7 +164,7 @@ def test_the_automaton_as_hoa(client: httpx.Client) -> None:
         ({"environment_spec": TINY}, "validation", 422, [""]),
         ({"environment": None}, "validation", 422, [""]),
         ({"options": {"epsilon": 0}}, "validation", 422, ["/options/epsilon"]),
-        ({"options": {"max_states": 10}}, "model-too-large", 422, None),
+        ({"options": {"max_states": 10}}, "model-too-large", 422, ["/options/max_states"]),
         ({"options": {"speed": "fast"}}, "validation", 422, ["/options/speed"]),
         (
             {"environment": None, "environment_spec": {**TINY, "initial": 9}},
@@ -180,7 +182,7 @@ def test_the_automaton_as_hoa(client: httpx.Client) -> None:
             {"environment": None, "environment_spec": {**TINY, "kind": "magic"}},
             "validation",
             422,
-            ["/environment_spec"],
+            ["/environment_spec/kind"],
         ),
     ],
 )
@@ -213,9 +215,11 @@ def test_a_plan_that_takes_too_long_is_stopped(client: httpx.Client) -> None:
     [
         ({"state": {"robot": {"at": "moon"}}}, "invalid-state", None),
         ({"state": {"moon": {"at": "kitchen"}}}, "invalid-state", None),
-        ({"state": {"box": {"in": "robot"}, "sphere": {"in": "robot"}}}, "invalid-state", None),
-        ({"state": {}, "memory": 99}, "invalid-memory", ["/memory"]),
-        ({"state": {}, "memory": -1}, "validation", ["/memory"]),
+        ({"state": {**WHERE, "box": {"in": "robot"}, "sphere": {"in": "robot"}}}, "invalid-state", None),
+        ({"state": {}}, "invalid-state", ["/state/robot/at", "/state/box/in", "/state/sphere/in"]),
+        ({"state": {"robot": {"at": "kitchen"}, "box": {"in": "kitchen"}}}, "invalid-state", ["/state/sphere/in"]),
+        ({"state": WHERE, "memory": 99}, "invalid-memory", ["/memory"]),
+        ({"state": WHERE, "memory": -1}, "validation", ["/memory"]),
         ({"memory": 0}, "validation", ["/state"]),
     ],
 )
@@ -232,3 +236,17 @@ def test_unknown_policies(client: httpx.Client) -> None:
     check_problem(client.get("/policies/none"), "unknown-policy", 404)
     check_problem(client.get("/policies/none/automaton"), "unknown-policy", 404)
     check_problem(client.post("/policies/none/step", json={"state": {}}), "unknown-policy", 404)
+
+
+def test_policies_are_listed_and_deleted(client: httpx.Client) -> None:
+    answer = plan(client, ltl="F (holding(sphere) & F holding(box))", environment="toys-4x1-sphere")
+    rows, cursor = [], ""
+    while cursor is not None:
+        page = client.get("/policies", params={"limit": 3, "cursor": cursor}).json()
+        rows += page["items"]
+        cursor = page["next"]
+    assert {"id": answer["id"], "environment": "toys-4x1-sphere", "ltl": answer["ltl"]} in rows
+    assert len(rows) == len({row["id"] for row in rows})
+    assert client.delete(answer["policy"]["url"]).status_code == 204
+    check_problem(client.get(answer["policy"]["url"]), "unknown-policy", 404)
+    check_problem(client.delete(answer["policy"]["url"]), "unknown-policy", 404)
