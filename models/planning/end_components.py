@@ -1,56 +1,49 @@
 """Maximal end components: where a policy may stay for ever.
 
 The classical decomposition (de Alfaro 1997, algorithm 3.1; Baier and Katoen, "Principles of Model Checking",
-10.6.3): take strongly connected components, drop the choices that may leave theirs, repeat until none does.
+10.6.3): take strongly connected components, drop the choices that may leave theirs and the nodes left without
+one, repeat until none does.
 """
 
 from __future__ import annotations
+
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from models.planning.graph import Mask, Predecessors, Pruning
+from models.planning.options import Progress, no_progress
 from models.planning.product import Product
-from models.planning.ragged import owners, spans
+from models.planning.ragged import spans
 
 
-def end_components(product: Product, inside: NDArray[np.bool_]) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+def end_components(
+    product: Product, graph: Predecessors, inside: Mask, *, progress: Progress = no_progress
+) -> tuple[NDArray[np.int32], Mask]:
     """The maximal end components of the nodes in `inside` ([n + 2]).
 
     Returns the component of each node ([n], -1 outside all of them) and which choices never leave one ([C]).
     """
-    nodes = product.nodes
-    owner = owners(product.first_choice)
-    choices = np.flatnonzero(inside[owner]).astype(np.int32)
-    choices = choices[_all_outcomes(product, choices, inside)]
-    label = np.full(nodes + 2, -1, dtype=np.int32)
-    while len(choices):
-        position = spans(product.first_outcome, choices)
-        source = np.repeat(owner[choices], np.diff(product.first_outcome)[choices])
-        target = product.successor[position]
+    nodes, owner = product.nodes, graph.owner
+    pruning = Pruning(graph, inside.copy(), inside[owner])
+    pruning.remove(np.flatnonzero(~inside).astype(np.int32), progress)
+    label = np.full(nodes, -1, dtype=np.int32)
+    for number in count(1):
+        choices = np.flatnonzero(pruning.allowed).astype(np.int32)
+        target = product.successor[spans(product.first_outcome, choices)]
+        choice = np.repeat(choices, np.diff(product.first_outcome)[choices])
+        source = owner[choice]
         edges = sparse.csr_array((np.ones(len(source), dtype=np.int8), (source, target)), shape=(nodes, nodes))
-        label[:nodes] = csgraph.connected_components(edges, directed=True, connection="strong")[1]
-        leaves = np.zeros(len(product.action), dtype=np.bool_)
-        crossing = label[source] != label[target]
-        leaves[np.repeat(choices, np.diff(product.first_outcome)[choices])[crossing]] = True
-        kept = choices[~leaves[choices]]
-        if len(kept) == len(choices):
+        label = csgraph.connected_components(edges, directed=True, connection="strong")[1]
+        progress("graph", number, 0.0, np.inf, len(choices))
+        leaving = np.unique(choice[label[source] != label[target]])
+        if not len(leaving):
             break
-        choices = kept
-    stays = np.zeros(len(product.action), dtype=np.bool_)
-    stays[choices] = True
+        pruning.forbid(leaving, progress)
     component = np.full(nodes, -1, dtype=np.int32)
-    members = np.unique(owner[choices])
+    members = np.unique(owner[pruning.allowed])
     component[members] = label[members]
-    return component, stays
-
-
-def _all_outcomes(product: Product, choices: NDArray[np.int32], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """For each of `choices`, whether every outcome is in `inside`."""
-    if not len(choices):
-        return np.zeros(0, dtype=np.bool_)
-    counts = np.diff(product.first_outcome)[choices]
-    start = np.cumsum(counts) - counts
-    fine = inside[product.successor[spans(product.first_outcome, choices)]]
-    return np.logical_and.reduceat(fine, start)
+    return component, pruning.allowed

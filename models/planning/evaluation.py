@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from models.planning.bellman import Bellman, threads
 from models.planning.choices import Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
-from models.planning.graph import Qualities
 from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
+from models.planning.qualities import Qualities
 from models.planning.steps import Steps
 
 ERROR = 1e-9

@@ -1,9 +1,6 @@
-"""Exact graph analysis of the product: which nodes have maximal probability 0, and which have 1.
+"""Searches in the product: backwards from targets, and the removal of nodes with all that depends on them.
 
-No numbers are involved, so there is no tolerance: Forejt, Kwiatkowska, Norman and Parker, "Automated
-verification techniques for probabilistic systems" (SFM 2011), algorithms Prob0A and Prob1E; de Alfaro,
-"Formal verification of probabilistic systems" (1997), for the almost-sure set by repeated removal. Only
-frontiers are touched, so a pass costs time in proportion to the outcomes.
+Only frontiers are touched, so a pass costs time in proportion to the outcomes.
 """
 
 from __future__ import annotations
@@ -13,11 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.sparse import csgraph
 
+from models.planning.options import Progress, no_progress
 from models.planning.product import Product
-from models.planning.ragged import distinct, owners, spans
+from models.planning.ragged import distinct, offsets, owners, spans
 
 Mask = NDArray[np.bool_]
+
+DEEP = 2_000
+"""Levels after which a search is left to a compiled one: on a long thin chain a level costs more than its nodes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,15 +29,6 @@ class Predecessors:
     first: NDArray[np.int32]  # [n + 3]
     choice: NDArray[np.int32]  # [E]
     owner: NDArray[np.int32]  # [C]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Qualities:
-    """What is certain without numbers, by node and column."""
-
-    possible: Mask  # [n + 2]  maximal probability is above 0
-    certain: Mask  # [n + 2]  maximal probability is 1
-    keeps_certain: Mask  # [C]  every outcome of the choice is certain
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,6 +63,8 @@ def reach(graph: Predecessors, targets: NDArray[np.int32], *, allowed: Mask | No
     frontier, depth = targets, 0
     while len(frontier):
         depth += 1
+        if depth > DEEP:
+            return _reach_deep(graph, targets, allowed)
         choices = graph.choice[spans(graph.first, frontier)]
         if allowed is not None:
             choices = choices[allowed[choices]]
@@ -82,40 +77,62 @@ def reach(graph: Predecessors, targets: NDArray[np.int32], *, allowed: Mask | No
     return Reached(distance, via)
 
 
-def analyse(product: Product, graph: Predecessors) -> Qualities:
-    """Find the nodes of maximal probability 0 and 1 of reaching acceptance."""
-    target = np.array([product.accepted], dtype=np.int32)
-    possible = reach(graph, target).mask
-    certain = possible.copy()
-    allowed = np.ones(len(product.action), dtype=np.bool_)
-    remaining = np.append(np.diff(product.first_choice), [0, 0]).astype(np.int32)
-    removed = np.flatnonzero(~possible).astype(np.int32)
-    while _remove(graph, removed, certain, allowed, remaining):
-        reached = reach(graph, target, allowed=allowed).mask
-        removed = np.flatnonzero(certain & ~reached).astype(np.int32)
-        certain &= reached
-    return Qualities(possible, certain, allowed)
+def _reach_deep(graph: Predecessors, targets: NDArray[np.int32], allowed: Mask | None) -> Reached:
+    """As `reach`, over all outcomes at once."""
+    size = len(graph.first) - 1
+    successor, choice = owners(graph.first), graph.choice
+    if allowed is not None:
+        kept = allowed[choice]
+        successor, choice = successor[kept], choice[kept]
+    owner = graph.owner[choice]
+    first = offsets(np.bincount(successor, minlength=size))
+    edges = sparse.csr_array((np.ones(len(owner)), owner, first), shape=(size, size))
+    found = csgraph.dijkstra(edges, indices=targets, unweighted=True, min_only=True)
+    distance = np.where(np.isfinite(found), found, -1.0).astype(np.int32)
+    closer = (distance[successor] >= 0) & (distance[owner] == distance[successor] + 1)
+    via = np.full(size, -1, dtype=np.int32)
+    via[owner[closer]] = choice[closer]
+    return Reached(distance, via)
 
 
-def _remove(
-    graph: Predecessors, nodes: NDArray[np.int32], inside: Mask, allowed: Mask, remaining: NDArray[np.int32]
-) -> bool:
-    """Forbid every choice that may enter `nodes`, and take out, in turn, the nodes left without a choice.
+class Pruning:
+    """The nodes still inside and the choices still allowed, while nodes are taken out.
 
-    Updates the last three in place; says whether a choice of a node that was still inside was forbidden.
+    A choice is allowed as long as none of its outcomes was taken out; a node stays inside as long as it has an
+    allowed choice.
     """
-    changed = False
-    scratch_choice = np.empty(len(allowed), dtype=np.int32)
-    scratch_node = np.empty(len(inside), dtype=np.int32)
-    while len(nodes):
-        choices = graph.choice[spans(graph.first, nodes)]
-        choices = distinct(choices[allowed[choices]], scratch_choice)
-        allowed[choices] = False
-        touched = graph.owner[choices]
-        touched = touched[inside[touched]]
-        changed = changed or bool(len(touched))
-        np.subtract.at(remaining, touched, 1)
-        empty = touched[remaining[touched] == 0]
-        nodes = distinct(empty, scratch_node)
-        inside[nodes] = False
-    return changed
+
+    def __init__(self, graph: Predecessors, inside: Mask, allowed: Mask) -> None:
+        size = len(graph.first) - 1
+        self.inside = inside  # [n + 2]
+        self.allowed = allowed  # [C]
+        self._graph = graph
+        self._remaining = np.bincount(graph.owner[allowed], minlength=size).astype(np.int32)
+        self._scratch_choice = np.empty(len(allowed), dtype=np.int32)
+        self._scratch_node = np.empty(size, dtype=np.int32)
+
+    def remove(self, nodes: NDArray[np.int32], progress: Progress = no_progress) -> NDArray[np.int32]:
+        """Take `nodes` out and, in turn, the nodes left without a choice. Returns the choices forbidden thereby."""
+        forbidden = [np.zeros(0, dtype=np.int32)]
+        self.inside[nodes] = False
+        while len(nodes):
+            choices = self._graph.choice[spans(self._graph.first, nodes)]
+            choices = distinct(choices[self.allowed[choices]], self._scratch_choice)
+            forbidden.append(choices)
+            nodes = self._forbid(choices)
+            progress("graph", len(forbidden), 0.0, np.inf, len(nodes))
+        return np.concatenate(forbidden)
+
+    def forbid(self, choices: NDArray[np.int32], progress: Progress = no_progress) -> None:
+        """Forbid choices that are allowed, and take out, in turn, the nodes left without one."""
+        self.remove(self._forbid(choices), progress)
+
+    def _forbid(self, choices: NDArray[np.int32]) -> NDArray[np.int32]:
+        """The nodes inside that are left without a choice; they are taken out."""
+        self.allowed[choices] = False
+        touched = self._graph.owner[choices]
+        np.subtract.at(self._remaining, touched, 1)
+        empty = touched[(self._remaining[touched] == 0) & self.inside[touched]]
+        nodes = distinct(empty, self._scratch_node)
+        self.inside[nodes] = False
+        return nodes

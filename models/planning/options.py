@@ -38,7 +38,7 @@ class Options:
             raise ValueError("device is auto, cpu or cuda")
 
 
-Stage = Literal["compile", "probability", "steps", "evaluate"]
+Stage = Literal["compile", "graph", "probability", "steps", "evaluate"]
 
 
 class Progress(Protocol):
@@ -49,7 +49,8 @@ class Progress(Protocol):
         updates.
 
         In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say
-        nothing yet (0 and infinity).
+        nothing yet (0 and infinity). In "graph" it is one level of a search, `states` is what the level comes to,
+        and the bounds say nothing either; levels are counted anew in each search.
         """
 
 

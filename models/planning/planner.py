@@ -14,11 +14,12 @@ import numpy as np
 from models.logic import Automaton, Dialect, Formula, to_text, translate
 from models.planning.compiled import check_memory, check_size, compile_world
 from models.planning.evaluation import Attained, attained_probability
-from models.planning.graph import Predecessors, Qualities, analyse, predecessors
+from models.planning.graph import Predecessors, predecessors
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import NOTHING, WAIT, Policy
 from models.planning.probability import Probability, maximal_probability
 from models.planning.product import Product, build_product, read_labels
+from models.planning.qualities import Qualities, analyse
 from models.planning.steps import Steps, conserving, fewest_steps
 from models.planning.trajectory import Trajectory, most_probable_run
 from models.world import StateError, World
@@ -89,11 +90,11 @@ def plan(
     next_memory = read_labels(automaton, world.labels(automaton.atoms), compiled.valid)
     product = build_product(compiled, automaton, next_memory)
     graph = predecessors(product)
-    qualities = analyse(product, graph)
+    qualities = analyse(product, graph, progress=progress)
     node = product.node_of(automaton.initial, start)
     if not qualities.possible[node]:
         return _hopeless("unreachable", world, automaton, start)
-    probability = maximal_probability(product, qualities, node, options=settings, progress=progress)
+    probability = maximal_probability(product, graph, qualities, node, options=settings, progress=progress)
     steps, attained = _optimise(product, graph, qualities, probability, node, settings, progress)
     return Plan(
         outcome="solved",

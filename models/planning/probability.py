@@ -21,10 +21,10 @@ from models.planning.bellman import Bellman, threads
 from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, probability_bounds
 from models.planning.end_components import end_components
-from models.planning.graph import Qualities
+from models.planning.graph import Predecessors
 from models.planning.options import Options, Progress, no_progress
 from models.planning.product import Product
-from models.planning.ragged import owners
+from models.planning.qualities import Qualities
 
 PRECISION = 1e-11
 """Gap that is aimed at, well under any useful epsilon: ties between actions are decided on these values."""
@@ -54,6 +54,7 @@ class Probability:
 
 def maximal_probability(
     product: Product,
+    graph: Predecessors,
     qualities: Qualities,
     initial: int,
     *,
@@ -69,21 +70,23 @@ def maximal_probability(
     upper = qualities.certain.astype(np.float64)
     maybe = qualities.possible & ~qualities.certain
     if maybe.any():
-        unknown, choices = _quotient(product, maybe, lower)
+        unknown, choices = _quotient(product, graph, maybe, lower, progress)
         low, high = iterate_intervals(choices, int(unknown[initial]), options=options, progress=progress)
         lower[maybe] = low[unknown[maybe]]
         upper[maybe] = high[unknown[maybe]]
     return Probability(lower, upper)
 
 
-def _quotient(product: Product, maybe: NDArray[np.bool_], known: Vector) -> tuple[NDArray[np.int32], Choices]:
+def _quotient(
+    product: Product, graph: Predecessors, maybe: NDArray[np.bool_], known: Vector, progress: Progress
+) -> tuple[NDArray[np.int32], Choices]:
     """The unknown of each node (-1 where known), and their choices: an end component is one unknown."""
-    component, stays = end_components(product, maybe)
+    component, stays = end_components(product, graph, maybe, progress=progress)
     nodes = np.flatnonzero(maybe)
     group = np.where(component[nodes] >= 0, component[nodes], product.nodes + nodes)
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
     unknown[nodes] = np.unique(group, return_inverse=True)[1]
-    owner = unknown[owners(product.first_choice)]
+    owner = unknown[graph.owner]
     chosen = np.flatnonzero((owner >= 0) & ~stays)
     return unknown, gather(product, chosen, unknown=unknown, known=known, owner=owner[chosen], cost=0.0)
 

@@ -25,10 +25,11 @@ from numpy.typing import NDArray
 from models.planning.bellman import Bellman, threads
 from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
-from models.planning.graph import Predecessors, Qualities, reach
+from models.planning.graph import Predecessors, reach
 from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
+from models.planning.qualities import Qualities
 from models.planning.ragged import owners
 
 RESIDUAL = 1e-11

@@ -22,7 +22,7 @@ from models.queries.errors import (
     UnusedParameterError,
 )
 from models.queries.lifting import lift, resolve_grounded, shape, slots
-from models.queries.template import Template, parameter_kinds
+from models.queries.template import Template, nothing_called, parameter_kinds
 from models.world import Environment, Symbol, UnknownObjectError, ground
 
 Column = tuple[Symbol, ...]
@@ -96,7 +96,7 @@ def _feasible(
         pointer = f"/{number}/query/arguments/{index}"
         symbols = {candidate.symbol for candidate in ground(phrase, environment).candidates}
         if not symbols:
-            detail = f'nothing in {environment.name} is called "{phrase}"'
+            detail = nothing_called(phrase, environment)
             raise UnknownObjectError(detail, places=[Place(pointer, detail)])
         remaining = [column for column in remaining if column[number] in symbols]
         if not remaining:

@@ -18,6 +18,7 @@ from models.world import (
     UnknownPropositionError,
     ground,
     resolve,
+    suggest,
 )
 
 Kinds = frozenset[str]
@@ -120,6 +121,13 @@ def evaluate(
     return GroundedTask(query, resolve(substitute(template.formula, terms), environment), tuple(bindings))
 
 
+def nothing_called(phrase: str, environment: Environment, kinds: Kinds | None = None) -> str:
+    """That a phrase names nothing, as a sentence, with what it may be a misspelling of."""
+    sentence = f'nothing in {environment.name} is called "{phrase}"'
+    near = suggest(phrase, environment, kinds=kinds)
+    return f"{sentence} (did you mean {' or '.join(near)}?)" if near else sentence
+
+
 def _describing(
     template: Template, query: ContextualQuery, index: int, kinds: Sequence[Kinds], environment: Environment
 ) -> str:
@@ -168,5 +176,5 @@ def _ground_argument(
         other = elsewhere[0].symbol
         detail = f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
         raise TypeMismatchError(detail, places=[Place(pointer, detail)])
-    detail = f'nothing in {environment.name} is called "{phrase}"; argument {index + 1} of {query.task} is a {wanted}'
+    detail = f"{nothing_called(phrase, environment, kinds)}; argument {index + 1} of {query.task} is a {wanted}"
     raise UnknownObjectError(detail, places=[Place(pointer, detail)])

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic.formula import Atom
-from models.world.actions import merge_outcomes
 from models.world.domain import Function
 from models.world.domain_reader import environment_name_fault, name_fault
 from models.world.limits import MAX_EXPLICIT_CELLS
@@ -33,7 +32,7 @@ class ExplicitWorld:
         self.initial = spec.initial
         self.variables = (Variable(OBJECT, ATTRIBUTE, tuple(map(str, range(spec.states)))),)
         self._vocabulary = vocabulary
-        self._labels = {name: _members(states, spec.states) for name, states in spec.labels.items()}
+        self._labels = {name: np.unique(np.array(states, dtype=np.int64)) for name, states in spec.labels.items()}
         by_action: dict[str, list[TransitionSpec]] = {}
         for transition in spec.transitions:
             by_action.setdefault(transition.action, []).append(transition)
@@ -54,11 +53,15 @@ class ExplicitWorld:
 
     def labels(self, atoms: Sequence[Atom], states: NDArray[np.int64] | None = None) -> NDArray[np.bool_]:
         """See `World.labels`."""
-        result = np.empty((len(atoms), self.size if states is None else len(states)), dtype=np.bool_)
+        result = np.zeros((len(atoms), self.size if states is None else len(states)), dtype=np.bool_)
         for row, atom in enumerate(atoms):
             bind_names(atom, self._vocabulary)
-            label = self._labels[atom.function]
-            result[row] = label if states is None else label[states]
+            members = self._labels[atom.function]
+            if states is None:
+                result[row, members] = True
+            elif len(members):
+                nearest = members[np.minimum(np.searchsorted(members, states), len(members) - 1)]
+                result[row] = nearest == states
         return result
 
     def outcomes(self, action: int, states: NDArray[np.int64] | None = None) -> Outcomes:
@@ -117,24 +120,26 @@ def _proposition(name: str) -> Function:
     return Function(name, (), f"{spoken} holds", f"{spoken} does not hold", ())
 
 
-def _members(states: Sequence[int], size: int) -> NDArray[np.bool_]:
-    mask = np.zeros(size, dtype=np.bool_)
-    mask[np.array(states, dtype=np.int64)] = True
-    return mask
-
-
 def _dense(transitions: list[TransitionSpec], size: int) -> Outcomes:
-    count = max(len(transition.to) for transition in transitions)
-    here = np.arange(size, dtype=np.int64)
+    merged = [(transition.source, _merged(transition)) for transition in transitions]
+    count = max(len(chances) for _, chances in merged)
     enabled = np.zeros(size, dtype=np.bool_)
     probability = np.zeros((count, size))
-    successor = np.tile(here, (count, 1))
-    for transition in transitions:
-        enabled[transition.source] = True
-        for index, (state, chance) in enumerate(transition.to):
-            successor[index, transition.source] = int(state)
-            probability[index, transition.source] = chance
-    merge_outcomes(probability, successor, here)
+    successor = np.tile(np.arange(size, dtype=np.int64), (count, 1))  # what cannot happen leads nowhere
+    for source, chances in merged:
+        enabled[source] = True
+        for index, (state, chance) in enumerate(chances.items()):
+            successor[index, source] = state
+            probability[index, source] = chance
     for array in (enabled, probability, successor):
         array.flags.writeable = False
     return Outcomes(enabled, probability, successor)
+
+
+def _merged(transition: TransitionSpec) -> dict[int, float]:
+    """Successor to probability, in the order given, without impossible ones."""
+    chances: dict[int, float] = {}
+    for state, chance in transition.to:
+        if chance > 0:
+            chances[int(state)] = chances.get(int(state), 0.0) + chance
+    return chances

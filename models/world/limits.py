@@ -38,5 +38,5 @@ MAX_WORK: Final = 2**25
 """Table entries computed while an environment is compiled."""
 MAX_EXPLICIT_STATES: Final = 1_000_000
 """States of an explicit environment."""
-MAX_EXPLICIT_CELLS: Final = 2**27
+MAX_EXPLICIT_CELLS: Final = 2**24
 """States times outcomes, summed over the actions of an explicit environment."""

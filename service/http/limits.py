@@ -6,7 +6,6 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.http.problems import problem_response
 
-
 DRAINED = 16
 """How many times the limit is still read and thrown away before the answer."""
 

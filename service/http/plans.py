@@ -87,6 +87,7 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
         expected_steps=answer.expected_steps,
         initial=Situation(state=answer.initial, memory=answer.initial_memory),
         trajectory=steps,
+        trajectory_probability=answer.run_probability,
         trajectory_complete=answer.complete,
         policy=policy,
         model=ModelSize(

@@ -301,8 +301,11 @@ class PlanResponse(BaseModel):
     probability: Bounds = Field(description="Maximal probability of satisfying the formula.")
     expected_steps: float | None = Field(description="Minimal expected steps until the outcome is decided.")
     initial: Situation
-    trajectory: list[TrajectoryStep] = Field(description="The most likely run of the policy.")
-    trajectory_complete: bool = Field(description="The run ends where the outcome is decided; else it was cut short.")
+    trajectory: list[TrajectoryStep] = Field(
+        description="Of the runs in which the policy satisfies the formula, the most probable one."
+    )
+    trajectory_probability: float | None = Field(description="Probability of exactly this run; null without one.")
+    trajectory_complete: bool = Field(description="The run ends where the formula is satisfied; else it was cut short.")
     policy: PolicySummary | None
     model: ModelSize
     timing: Timing

@@ -47,7 +47,8 @@ class PlanAnswer:
     initial: NamedState
     initial_memory: int
     trajectory: tuple[tuple[NamedState, int, str | None], ...]  # state, memory before reading it, action
-    complete: bool  # the trajectory ends where the outcome is decided
+    run_probability: float | None  # of exactly this run
+    complete: bool  # the trajectory ends where the formula is satisfied
     policy: bytes | None
     states: int
     product_states: int
@@ -92,6 +93,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         initial=world.decode(initial),
         initial_memory=found.initial_memory,
         trajectory=_steps(world, found.trajectory),
+        run_probability=None if found.trajectory is None else found.trajectory.probability,
         complete=found.trajectory is not None
         and found.trajectory.complete
         and len(found.trajectory.steps) <= MAX_STEPS,

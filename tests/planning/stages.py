@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from models.logic import Automaton, parse, translate
 from models.planning.compiled import CompiledWorld, compile_world
-from models.planning.graph import Predecessors, Qualities, analyse, predecessors
+from models.planning.graph import Predecessors, predecessors
 from models.planning.product import Product, build_product, read_labels
+from models.planning.qualities import Qualities, analyse
 from tests.planning.doubles import ArrayWorld
 
 

@@ -84,7 +84,7 @@ def test_end_components_are_the_maximal_ones() -> None:
             if is_end_component(choices, set(c))
         ]  # fmt: skip
         maximal = {frozenset(c) for c in every if not any(c < d for d in every)}
-        component, stays = end_components(s.product, inside)
+        component, stays = end_components(s.product, s.graph, inside)
         groups: dict[int, set[int]] = {}
         for node in (component >= 0).nonzero()[0].tolist():
             groups.setdefault(int(component[node]), set()).add(node)

@@ -19,7 +19,7 @@ def test_progress_hears_of_every_sweep_with_bounds_that_tighten() -> None:
     heard: list[tuple[str, int, float, float, int]] = []
     result = plan(SLOW, parse("F a"), progress=lambda *event: heard.append(event))
     stages = [event[0] for event in heard]
-    assert stages == sorted(stages, key=["compile", "probability", "steps", "evaluate"].index)
+    assert stages == sorted(stages, key=["compile", "graph", "probability", "steps", "evaluate"].index)
     for stage in ("probability", "steps"):
         sweeps = [event for event in heard if event[0] == stage]
         assert [event[1] for event in sweeps] == list(range(1, len(sweeps) + 1))

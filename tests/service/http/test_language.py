@@ -352,6 +352,12 @@ def test_names_in_any_script(client: httpx.Client) -> None:
     assert client.get(location).json()["task"] == "взять"
 
 
+def test_a_misspelt_name_is_suggested(client: httpx.Client) -> None:
+    response = client.post("/ground", json={"contextual_query": "pickup(sphre)", "environment": "toys"})
+    problem = check_problem(response, "unknown-object", 422, ["/contextual_query/arguments/0"])
+    assert "did you mean sphere?" in problem["detail"]
+
+
 def test_a_text_of_a_batch_is_named(client: httpx.Client) -> None:
     body = {"texts": ["Pickup the sphere", "go " * 600]}
     check_problem(client.post("/translate/batch", json=body), "text-too-long", 422, ["/texts/1"])

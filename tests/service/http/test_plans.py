@@ -86,6 +86,9 @@ def test_an_explicit_environment_by_hand(client: httpx.Client) -> None:
     answer = plan(client, ltl="F (a & F b)", environment_spec=TINY)
     assert answer["probability"] == {"lower": 1.0, "upper": 1.0}
     assert answer["expected_steps"] == pytest.approx(1 / 0.9 + 2)
+    assert [step["state"]["mdp"]["state"] for step in answer["trajectory"]] == ["0", "1", "2"]
+    assert answer["trajectory_probability"] == pytest.approx(0.9 * 0.5)
+    assert answer["trajectory_complete"]
     assert answer["initial"] == {"state": {"mdp": {"state": "0"}}, "memory": 0}
 
 
