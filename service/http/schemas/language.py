@@ -1,0 +1,159 @@
+"""Translating, learning, grounding, and the learned templates."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+from service.http.problems import ErrorPlace
+from service.http.schemas.common import (
+    Command,
+    ContextualQueryOut,
+    EnvironmentName,
+    FormulaText,
+    QueryText,
+    Request,
+    TranslatorName,
+)
+
+
+class BindingOut(BaseModel):
+    """What an argument grounded to."""
+
+    argument: int = Field(description="Position of the argument, from 1.")
+    phrase: str
+    name: str = Field(description="The object or attribute value.")
+    kind: str = Field(description="Its class or attribute type.")
+    reason: str = Field(description="Why the phrase names it.")
+
+
+class TranslateRequest(Request):
+    """A command to translate."""
+
+    text: Command
+    environment: EnvironmentName | None = Field(None, description="Where to ground; without it `ltl` is null.")
+    translator: TranslatorName = "default"
+    candidates: int = Field(1, ge=1, le=10, description="How many readings to return at most.")
+
+
+class BatchRequest(Request):
+    """Commands to translate."""
+
+    texts: list[Command] = Field(min_length=1, max_length=100)
+    environment: EnvironmentName | None = None
+    translator: TranslatorName = "default"
+    candidates: int = Field(1, ge=1, le=10)
+
+
+class CandidateOut(BaseModel):
+    """One reading of a command."""
+
+    contextual_query: ContextualQueryOut
+    ltl: str | None = Field(description="Grounded LTL; null when it cannot be grounded, see `issues`.")
+    confidence: float = Field(description="Probability that the translator gives this reading.")
+    explanation: str | None = Field(description="The formula read back in English.")
+    bindings: list[BindingOut]
+    warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
+    issues: list[ErrorPlace] = Field(description="Why there is no `ltl`.")
+
+
+class QuestionOut(BaseModel):
+    """A question to ask back."""
+
+    argument: int = Field(description="Position of the argument in doubt, from 1.")
+    text: str
+    choices: list[str]
+
+
+class TranslateResponse(BaseModel):
+    """What a command was understood as."""
+
+    text: str
+    outcome: Literal["translated", "ambiguous", "unknown"]
+    contextual_query: ContextualQueryOut | None
+    ltl: str | None
+    confidence: float | None
+    explanation: str | None
+    bindings: list[BindingOut]
+    candidates: list[CandidateOut]
+    question: QuestionOut | None
+    warnings: list[str]
+    issues: list[ErrorPlace]
+
+
+class BatchResponse(BaseModel):
+    """Translations in the order of the texts."""
+
+    items: list[TranslateResponse]
+
+
+class PairIn(Request):
+    """A contextual query with its grounded LTL."""
+
+    contextual_query: QueryText
+    ltl: FormulaText
+
+
+class LearnRequest(PairIn):
+    """One example of a task; `more` are further examples of the same task, whose possible mappings are intersected."""
+
+    environment: EnvironmentName
+    more: list[PairIn] = Field(default_factory=list, max_length=20)
+    examples: list[Command] = Field(
+        default_factory=list, max_length=50, description="Utterances of the first example's query."
+    )
+    replace: bool = Field(False, description="Put this template in the place of another one of the task.")
+
+
+class ParameterOut(BaseModel):
+    """One parameter of a template."""
+
+    position: int = Field(description="From 1; `$1` in the template.")
+    type: str = Field(description="The kinds it may have, for example `toy` or `box | toy`.")
+
+
+class PairOut(BaseModel):
+    """What a template was learned from."""
+
+    contextual_query: str
+    ltl: str
+    environment: str
+
+
+class TemplateOut(BaseModel):
+    """A task class."""
+
+    task: str
+    arity: int
+    parameters: list[ParameterOut]
+    template: str = Field(description="Templated LTL.")
+    lifted: str = Field(description="Lifted LTL of the first example.")
+    pairs: list[PairOut]
+    examples: list[str]
+    revision: int
+    warnings: list[str]
+
+
+class TemplateList(BaseModel):
+    """A page of templates."""
+
+    items: list[TemplateOut]
+    next: str | None = Field(description="Pass as `cursor` for the next page; null on the last.")
+
+
+class GroundRequest(Request):
+    """A contextual query to evaluate."""
+
+    contextual_query: QueryText
+    environment: EnvironmentName
+
+
+class GroundResponse(BaseModel):
+    """Grounded LTL."""
+
+    contextual_query: ContextualQueryOut
+    ltl: str
+    explanation: str
+    bindings: list[BindingOut]
+    warnings: list[str] = Field(description="What to know of the task's template.")

@@ -1,0 +1,114 @@
+"""Plans."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from models.world import EnvironmentSpec
+from service.http.schemas.common import (
+    Command,
+    ContextualQueryOut,
+    EnvironmentName,
+    FormulaText,
+    QueryText,
+    Request,
+    State,
+    TranslatorName,
+)
+
+
+class PlanOptions(Request):
+    """Accuracy and limits."""
+
+    epsilon: float = Field(1e-6, ge=1e-12, lt=1, description="Most that upper and lower probability may differ.")
+    timeout_s: float = Field(30.0, gt=0, allow_inf_nan=False, description="Longest planning time, in seconds.")
+    max_states: int = Field(50_000_000, ge=1, description="Most product states.")
+    device: Literal["auto", "cpu", "cuda"] = "auto"
+
+
+class PlanRequest(Request):
+    """What to plan: exactly one of `text`, `contextual_query`, `ltl`, and one of `environment`, `environment_spec`."""
+
+    text: Command | None = None
+    contextual_query: QueryText | None = None
+    ltl: FormulaText | None = None
+    environment: EnvironmentName | None = None
+    environment_spec: EnvironmentSpec | None = None
+    state: State | None = None
+    translator: TranslatorName = "default"
+    options: PlanOptions = Field(default_factory=PlanOptions)
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> Self:
+        for names in (("text", "contextual_query", "ltl"), ("environment", "environment_spec")):
+            if sum(getattr(self, name) is not None for name in names) != 1:
+                raise ValueError(f"give exactly one of {', '.join(names)}")
+        return self
+
+
+class Bounds(BaseModel):
+    """An interval that holds the true value."""
+
+    lower: float
+    upper: float
+
+
+class Situation(BaseModel):
+    """A state, and the memory to send with it."""
+
+    state: State
+    memory: int
+
+
+class TrajectoryStep(Situation):
+    """One step of a run; the last has no action."""
+
+    action: str | None
+
+
+class PolicySummary(BaseModel):
+    """Where the policy is."""
+
+    id: str
+    url: str
+    memories: int = Field(description="Number of memory states.")
+    states: int = Field(description="Number of state indices.")
+
+
+class ModelSize(BaseModel):
+    """How large the problem was."""
+
+    states: int
+    product_states: int
+    automaton_states: int
+
+
+class Timing(BaseModel):
+    """Wall-clock seconds; the only part of a response that differs between equal requests."""
+
+    total_s: float
+
+
+class PlanResponse(BaseModel):
+    """A plan."""
+
+    id: str | None = Field(description="The policy's id; null without a policy.")
+    outcome: Literal["solved", "unsatisfiable", "unreachable"]
+    contextual_query: ContextualQueryOut | None
+    ltl: str
+    explanation: str
+    warnings: list[str] = Field(description="What to know of the template that the formula came from.")
+    environment: str
+    probability: Bounds = Field(description="Maximal probability of satisfying the formula.")
+    expected_steps: float | None = Field(description="Minimal expected steps until the outcome is decided.")
+    initial: Situation
+    trajectory: list[TrajectoryStep] = Field(
+        description="Of the runs in which the policy satisfies the formula, the most probable one."
+    )
+    trajectory_probability: float | None = Field(description="Probability of exactly this run; null without one.")
+    trajectory_complete: bool = Field(description="The run ends where the formula is satisfied; else it was cut short.")
+    policy: PolicySummary | None
+    model: ModelSize
+    timing: Timing
