@@ -82,7 +82,7 @@ def check_memory(world: World, memories: int, live: int, options: Options) -> No
     it.
 
     `live` is the number of automaton states that are iterated. The number of outcomes of a large world is
-    estimated from evenly spaced states; worlds of up to SAMPLE states are small.
+    estimated from evenly spaced states; worlds of up to SAMPLE states are small enough to be compiled first.
     """
     if world.size <= SAMPLE:
         return
@@ -91,11 +91,19 @@ def check_memory(world: World, memories: int, live: int, options: Options) -> No
     outcomes = sum(
         int(np.count_nonzero(world.outcomes(action, states).probability)) for action in range(len(world.actions))
     )
-    per_state = outcomes / max(1, len(states))
-    estimate = int(world.size * (STATE_BYTES * memories + per_state * OUTCOME_BYTES * WORKING_COPIES * max(1, live)))
+    _check_bytes(world.size, memories, live, outcomes / max(1, len(states)), options)
+
+
+def check_outcomes(world: CompiledWorld, memories: int, live: int, options: Options) -> None:
+    """As `check_memory`, with the outcomes counted; raises ModelTooLargeError before allocating the product."""
+    _check_bytes(world.states, memories, live, len(world.successor) / world.states, options)
+
+
+def _check_bytes(states: int, memories: int, live: int, per_state: float, options: Options) -> None:
+    estimate = int(states * (STATE_BYTES * memories + per_state * OUTCOME_BYTES * WORKING_COPIES * max(1, live)))
     if estimate > options.max_bytes:
         raise ModelTooLargeError(
-            f"planning needs about {estimate} bytes ({world.size * memories} product states, about {per_state:.0f} "
+            f"planning needs about {estimate} bytes ({states * memories} product states, about {per_state:.0f} "
             f"outcomes a state); the limit is {options.max_bytes}",
             estimate=estimate,
             limit=options.max_bytes,

@@ -7,6 +7,7 @@ checking inequalities.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -72,9 +73,10 @@ class Improver:
         first = hits[np.unique(owner, return_index=True)[1]]
         return self._sign * top, self._by_owner[first]
 
-    def improve(self, chosen: NDArray[np.int32]) -> Proposal | None:
-        """Improve a policy until no choice is strictly better."""
+    def improve(self, chosen: NDArray[np.int32], alive: Callable[[], None]) -> Proposal | None:
+        """Improve a policy until no choice is strictly better; `alive` is called in every round."""
         for _ in range(ROUNDS):
+            alive()
             value = self.evaluate(chosen)
             if value is None:
                 return None
@@ -86,7 +88,9 @@ class Improver:
         return None
 
 
-def probability_bounds(choices: Choices, chosen: NDArray[np.int32]) -> tuple[Vector, Vector] | None:
+def probability_bounds(
+    choices: Choices, chosen: NDArray[np.int32], alive: Callable[[], None] = lambda: None
+) -> tuple[Vector, Vector] | None:
     """Lower and upper bounds of the maximal values, starting from any policy; None if there is no proposal.
 
     Every policy must leave the unknowns for sure. With W(x) >= the expected number of steps in the unknowns
@@ -95,9 +99,9 @@ def probability_bounds(choices: Choices, chosen: NDArray[np.int32]) -> tuple[Vec
     choice improves 1 + P w by r < 1, then W <= w / (1 - r), because each step costs 1.
     """
     improver = Improver(choices, maximise=True)
-    proposal = improver.improve(chosen)
+    proposal = improver.improve(chosen, alive)
     timer = Improver(replace(choices, constant=np.ones(len(choices.owner))), maximise=True)
-    time = None if proposal is None else timer.improve(proposal.chosen)
+    time = None if proposal is None else timer.improve(proposal.chosen, alive)
     if proposal is None or time is None:
         return None
     excess = float((timer.best(timer.values(time.value))[0] - time.value).max())

@@ -45,12 +45,12 @@ class Progress(Protocol):
     """Told about every sweep; an exception that it raises cancels the plan and reaches the caller of `plan`."""
 
     def __call__(self, stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
-        """`sweep` counts from 1; the bounds are those of the initial state's value; `states` is what a sweep
-        updates.
+        """`sweep` counts from 1, and stays where it is while a small system is solved directly; the bounds are
+        those of the initial state's value; `states` is what a sweep updates.
 
         In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say
-        nothing yet (0 and infinity). In "graph" it is one level of a search, `states` is what the level comes to,
-        and the bounds say nothing either; levels are counted anew in each search.
+        nothing yet (0 and infinity). In "graph" it is one level of a search, `states` is what the level comes
+        to, and the bounds say nothing either; levels are counted anew in each search.
         """
 
 

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from models.logic import Automaton, Dialect, Formula, to_text, translate
-from models.planning.compiled import check_memory, check_size, compile_world
+from models.planning.compiled import check_memory, check_outcomes, check_size, compile_world
 from models.planning.evaluation import Attained, attained_probability
 from models.planning.graph import Predecessors, predecessors
 from models.planning.options import Options, Progress, no_progress
@@ -87,6 +87,7 @@ def plan(
     live = int(np.count_nonzero(~automaton.accepting & ~automaton.rejecting))
     check_memory(world, automaton.states, live, settings)
     compiled = compile_world(world, progress=progress)
+    check_outcomes(compiled, automaton.states, live, settings)
     next_memory = read_labels(automaton, world.labels(automaton.atoms), compiled.valid)
     product = build_product(compiled, automaton, next_memory)
     graph = predecessors(product)

@@ -11,6 +11,7 @@ so that the bounds hold in floating point too.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -104,15 +105,19 @@ def iterate_intervals(
     precision = min(PRECISION, options.epsilon)
     place = int(operator.position[watched]) if watched >= 0 else -1
     gap = 1.0
+
+    def tell(sweep: int) -> None:
+        if progress is not no_progress:
+            low, high = (float(lower[place]), float(upper[place])) if place >= 0 else (1.0, 1.0)
+            progress("probability", sweep, low, high, choices.unknowns)
+
     with threads(operator.outcomes):
         for sweep in range(1, options.max_sweeps + 1):
             previous, gap = gap, _narrow(operator, lower, upper)
             stuck = gap == previous and sweep % DIRECT_AFTER == 0  # as close as floating point gets
             if gap > precision and sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-                gap, stuck = _solve_directly(operator, lower, upper), True
-            if progress is not no_progress:
-                low, high = (float(lower[place]), float(upper[place])) if place >= 0 else (1.0, 1.0)
-                progress("probability", sweep, low, high, choices.unknowns)
+                gap, stuck = _solve_directly(operator, lower, upper, lambda: tell(DIRECT_AFTER)), True
+            tell(sweep)
             if gap <= precision or (stuck and gap <= options.epsilon):
                 break
     return operator.numpy(lower), operator.numpy(upper)
@@ -129,9 +134,9 @@ def _narrow(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> floa
     return float(torch.sub(upper, lower, out=out).max())
 
 
-def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> float:
+def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor, alive: Callable[[], None]) -> float:
     """Tighten both bounds in place by the direct solver's, where it has any; returns the largest gap."""
-    bounds = probability_bounds(operator.choices, operator.greedy(lower, 0.0)[0])
+    bounds = probability_bounds(operator.choices, operator.greedy(lower, 0.0)[0], alive)
     if bounds is not None:
         torch.maximum(lower, operator.vector(bounds[0]), out=lower)
         torch.minimum(upper, operator.vector(bounds[1]), out=upper)

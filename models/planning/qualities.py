@@ -98,8 +98,9 @@ class _Forest:
         self, nodes: NDArray[np.int32], choices: NDArray[np.int32]
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
         """Node, choice and what is entered, for every outcome of `choices`, which belong to `nodes`."""
-        count = np.diff(self._product.first_outcome)[choices]
-        entered = self._product.successor[spans(self._product.first_outcome, choices)]
+        first = self._product.first_outcome
+        count = first[choices + 1] - first[choices]
+        entered = self._product.successor[spans(first, choices)]
         return np.repeat(nodes, count), np.repeat(choices, count), entered
 
     def _before(self, nodes: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:

@@ -16,7 +16,9 @@ can therefore not circle on a tie, and its values need no further evaluation.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import torch
@@ -123,30 +125,36 @@ def _solve(
     place = int(operator.position[watched]) if watched >= 0 else -1
     x = operator.vector(start)
     out = torch.empty_like(x)
+
+    def tell(sweep: int, rise: float) -> None:
+        if progress is not no_progress:
+            value = float(x[place]) if place >= 0 else 0.0
+            progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
+
     with threads(operator.outcomes):
         for sweep in range(1, options.max_sweeps + 1):
             operator.sweep(x, out)
             rise = float((out - x).max())
             x, out = torch.maximum(x, out, out=out), x
-            if progress is not no_progress:
-                value = float(x[place]) if place >= 0 else 0.0
-                progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
+            tell(sweep, rise)
             if rise <= RESIDUAL or (sweep % DIRECT_AFTER == 0 and rise <= choices.roundoff * float(x.max())):
                 break
             if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-                solved = _solve_directly(operator, x, towards)
+                solved = _solve_directly(operator, x, towards, partial(tell, sweep, rise))
                 x = x if solved is None else solved
         policy, error = operator.greedy(x, TIE)
     return (policy if error < 1.0 else towards), operator.numpy(x), error
 
 
-def _solve_directly(operator: Bellman, x: torch.Tensor, towards: NDArray[np.int32]) -> torch.Tensor | None:
+def _solve_directly(
+    operator: Bellman, x: torch.Tensor, towards: NDArray[np.int32], alive: Callable[[], None]
+) -> torch.Tensor | None:
     """The optimum from policy iteration, made a lower bound: if x >= T x - r then x / (1 + r) <= T (x / (1 +
     r)).
     """
     greedy, rise = operator.greedy(x, TIE)
     improver = Improver(operator.choices, maximise=False)
-    proposal = improver.improve(greedy if rise < 1.0 else towards)
+    proposal = improver.improve(greedy if rise < 1.0 else towards, alive)
     if proposal is None:
         return None
     fall = float((proposal.value - improver.best(improver.values(proposal.value))[0]).max())

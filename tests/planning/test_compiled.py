@@ -81,6 +81,14 @@ def test_too_much_memory_is_refused_before_it_is_allocated() -> None:
     assert caught.value.estimate > caught.value.limit == 1_000_000
 
 
+def test_a_small_world_with_many_outcomes_is_refused_too() -> None:
+    moves = {s: {"go": dict.fromkeys(range(60), 1 / 60)} for s in range(60)}
+    with pytest.raises(ModelTooLargeError) as caught:
+        plan(ArrayWorld(60, moves, {"a": frozenset({1})}), parse("F a"), options=Options(max_bytes=100_000))
+    assert (caught.value.unit, caught.value.estimate) == ("bytes", 60 * (2 * 64 + 60 * 12 * 5))
+    assert [(place.pointer, place.detail) for place in caught.value.places] == [("", caught.value.detail)]
+
+
 def test_the_memory_estimate_grows_with_the_world() -> None:
     with pytest.raises(ModelTooLargeError) as caught:
         check_memory(ArrayWorld(5_000, {}, {}), 2, 1, Options(max_bytes=1))

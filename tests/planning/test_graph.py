@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from itertools import combinations
 
+import numpy as np
 import pytest
+from scipy.sparse import csgraph
 
+from models.planning import graph
 from models.planning.end_components import end_components
-from tests.planning.doubles import random_world
+from models.planning.graph import reach
+from models.planning.qualities import analyse
+from tests.planning.doubles import ArrayWorld, random_world
 from tests.planning.stages import Stages, stages
 
 FORMULAS = ("F a", "F (a & F b)", "!b U a", "(X a) | (b U (a & X b))")
@@ -93,6 +98,55 @@ def test_end_components_are_the_maximal_ones() -> None:
         assert stays.tolist() == [any(n in c and m <= c for c in maximal) for n, m in flat], seed
         found_some += bool(maximal)
     assert found_some >= 3
+
+
+def peeled(size: int) -> ArrayWorld:
+    """Every node may try for the goal, but risks the node below it; only in the lowest is all lost."""
+    last = size - 1
+    moves = {s: {"rest": {s: 1.0}, "try": {s - 1: 0.5, last: 0.5}} for s in range(1, last)}
+    return ArrayWorld(size, moves, {"a": frozenset({last})}, initial=last - 1)
+
+
+def test_removal_node_by_node_takes_time_in_proportion() -> None:
+    s = stages(peeled(2_000), "F a")
+    levels: list[int] = []
+    found = analyse(s.product, s.graph, progress=lambda *event: levels.append(event[-1]))
+    assert found.certain.nonzero()[0].tolist() == [s.product.accepted]
+    assert found.possible.sum() == 1_999
+    assert len(levels) > 2_000  # the removal of each node is told of
+    assert sum(levels) < 4 * 2_000  # and looks only at what it cuts
+
+
+def test_end_components_that_fall_apart_node_by_node_take_one_removal(monkeypatch: pytest.MonkeyPatch) -> None:
+    size = 300
+    moves = {s: {"go": {s - 1: 0.5, s + 1: 0.5}} for s in range(1, size - 1)}
+    s = stages(ArrayWorld(size, moves, {"a": frozenset({size - 1})}), "F a")
+    decompose, sizes = csgraph.connected_components, []
+    monkeypatch.setattr(csgraph, "connected_components", lambda m, **how: sizes.append(m.nnz) or decompose(m, **how))
+    component, stays = end_components(s.product, s.graph, s.qualities.possible & ~s.qualities.certain)
+    assert len(sizes) <= 2
+    assert (component < 0).all()
+    assert not stays.any()
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_the_deep_search_finds_what_the_one_by_levels_does(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    s = stages(random_world(seed), "F (a & F b)")
+    allowed = np.random.default_rng(seed).random(len(s.product.action)) < 0.7
+    for mask in (None, allowed):
+        targets = np.array([s.product.accepted, s.product.lost], dtype=np.int32)
+        shallow = reach(s.graph, targets, allowed=mask)
+        monkeypatch.setattr(graph, "DEEP", 0)
+        deep = reach(s.graph, targets, allowed=mask)
+        monkeypatch.undo()
+        assert deep.distance.tolist() == shallow.distance.tolist()
+        for node in (deep.distance > 0).nonzero()[0].tolist():
+            choice = deep.choice[node]
+            assert s.product.first_choice[node] <= choice < s.product.first_choice[node + 1]
+            assert mask is None or mask[choice]
+            entered = s.product.successor[s.product.first_outcome[choice] : s.product.first_outcome[choice + 1]]
+            assert deep.distance[node] - 1 in deep.distance[entered]
+        assert (deep.choice[deep.distance <= 0] == -1).all()
 
 
 def test_the_product_reads_the_label_of_the_state_entered() -> None:
