@@ -82,7 +82,11 @@ class _Grounder:
         self.algebra: Algebra = evaluator.algebra
         self.strides = strides
         self.constraints = constraints
-        self._digits: dict[tuple[Symbol | None, ...], NDArray[np.int64]] = {}
+        self._digits: dict[int, NDArray[np.int64]] = {}  # by id of the values: few tuples, kept by the model
+        self._touching: dict[int, list[int]] = {}  # position of a variable to the constraints that read it
+        for index, constraint in enumerate(constraints):
+            for position in constraint.scope:
+                self._touching.setdefault(position, []).append(index)
 
     def ground(self, action: Action, binding: Mapping[str, Symbol]) -> GroundedAction | None:
         """The action with its arguments bound, or None when it is possible nowhere."""
@@ -181,17 +185,17 @@ class _Grounder:
 
     def _digit_of(self, values: tuple[Symbol | None, ...]) -> NDArray[np.int64]:
         """Symbol number to digit, -1 for a symbol that is not among the values."""
-        if values not in self._digits:
+        if id(values) not in self._digits:
             numbers = self.evaluator.numbers
             digits = np.full(len(numbers) + 1, -1, dtype=np.int64)
             for digit, value in enumerate(values):
                 digits[numbers[value] if value else 0] = digit
-            self._digits[values] = digits
-        return self._digits[values]
+            self._digits[id(values)] = digits
+        return self._digits[id(values)]
 
     def _kept(self, probability: Value, changes: Mapping[int, Value]) -> Iterator[Value]:
         """For each constraint that the changes touch: where it holds after them, or they do not happen."""
-        touched = [i for i, value in enumerate(self.constraints) if not changes.keys().isdisjoint(value.scope)]
+        touched = sorted({index for position in changes for index in self._touching.get(position, ())})
         if not touched:
             return
         after = self.evaluator.overriding(changes)

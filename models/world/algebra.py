@@ -24,6 +24,7 @@ Operation = Callable[..., Any]
 _OVERHEAD = 256  # what one array operation costs, in entries
 _LOOKUP = 32  # what finding a known value costs
 _REMEMBERED = 16_384
+_SPEED = 4  # long arrays are computed so many entries for the price of one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,7 +155,7 @@ class Algebra:
         size = self.entries(scope)
         tables = [part for part in parts if isinstance(part, Table)]
         if size > MAX_TABLE or len(tables) < len(parts):
-            self.spend(_OVERHEAD)
+            self.spend(_OVERHEAD + len(parts) + sum(map(len, scopes)))
             return Combined(scope, operation, parts)
         self.spend(size * len(parts) + _OVERHEAD)
         if len(scopes) <= 1:  # constants broadcast as they are
@@ -184,9 +185,21 @@ class Algebra:
 
     def tabulate(self, value: Value, scope: tuple[int, ...]) -> Array:
         """The value at every combination of the variables of `scope`, which holds the value's own."""
-        self.spend(self.entries(scope))
+        self.spend(self.entries(scope) + self._work(value))
         box = Box(self.radix, scope)
         return np.broadcast_to(evaluate(value, box), box.shape)
+
+    def _work(self, value: Value) -> int:
+        """What evaluating a value over all values of its variables costs; shared parts are computed once."""
+        seen: set[Value] = set()
+        waiting, work = [value], 0
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, Combined) and node not in seen:
+                seen.add(node)
+                work += len(node.parts) * (1 + self.entries(node.scope) // _SPEED)
+                waiting.extend(node.parts)
+        return work
 
     def _fits(self, left: Value, right: Value) -> bool:
         if not (isinstance(left, Table) and isinstance(right, Table)):

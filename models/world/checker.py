@@ -66,9 +66,17 @@ class Checker:
     constants: Mapping[str, str]
     parameters: Mapping[str, Parameter]
     definitions: Mapping[str, Definition]
+    _values: dict[str, frozenset[str]] = field(init=False)
+    _kinds_of: dict[str, list[str]] = field(default_factory=dict)  # attribute value to its types
     _typed: dict[str, Typed] = field(default_factory=dict)
     _failed: dict[str, ExpressionError] = field(default_factory=dict)
     _open: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._values = {kind: frozenset(values) for kind, values in self.attributes.items()}
+        for kind, values in self._values.items():
+            for value in values:
+                self._kinds_of.setdefault(value, []).append(kind)
 
     def check(self, expression: Expression, scope: Scope, expected: Type | None = None) -> Typed:
         """The type of an expression. Raises ExpressionError when it has none, or not the expected one."""
@@ -85,7 +93,7 @@ class Checker:
         """What a free name may mean: a constant, a parameter, or a value of an attribute type."""
         found = [frozenset({self.constants[name]})] if name in self.constants else []
         found += [NUMBER] if name in self.parameters else []
-        return found + [frozenset({kind}) for kind, values in self.attributes.items() if name in values]
+        return found + [frozenset({kind}) for kind in self._kinds_of.get(name, ())]
 
     def definition(self, name: str) -> Typed:
         """The type of a definition's body. Raises ExpressionError when it calls itself."""
@@ -165,7 +173,7 @@ class Checker:
         return f"nothing is called {name}{hint(name, chain(known, self.definitions, values))}"
 
     def _access(self, expression: Access, scope: Scope) -> Typed:
-        if qualified_value(expression, scope, self.attributes):
+        if qualified_value(expression, scope, self._values):
             assert isinstance(expression.base, Variable)
             return Typed(frozenset({expression.base.name}), 1)
         if isinstance(expression.base, Variable) and self._is_type_name(expression.base.name, scope):
@@ -176,7 +184,7 @@ class Checker:
         partial = NONE in base.type
         for kind in base.type - {NONE}:
             declared = self.classes.get(kind)
-            kinds = {**declared.static, **declared.state}.get(expression.attribute) if declared else None
+            kinds = declared.kinds(expression.attribute) if declared else None
             partial = partial or kinds is None or (declared is not None and expression.attribute in declared.static)
             found.update(kinds or ())
         if not found:
@@ -271,12 +279,12 @@ def scope_of(arguments: tuple[Argument, ...]) -> dict[str, Type]:
     return {argument.name: frozenset(argument.kinds) for argument in arguments}
 
 
-def qualified_value(expression: Access, scope: Mapping[str, object], attributes: Mapping[str, tuple[str, ...]]) -> bool:
+def qualified_value(expression: Access, scope: Mapping[str, object], values: Mapping[str, frozenset[str]]) -> bool:
     """Whether this is `color.red`: a value of an attribute type, not an attribute of an object."""
     base = expression.base
     return (
         isinstance(base, Variable)
         and base.name not in scope
-        and base.name in attributes
-        and expression.attribute in attributes[base.name]
+        and base.name in values
+        and expression.attribute in values[base.name]
     )

@@ -62,6 +62,10 @@ class ObjectClass:
     state: Mapping[str, tuple[str, ...]]
     words: tuple[str, ...]
 
+    def kinds(self, attribute: str) -> tuple[str, ...] | None:
+        """The kinds of an attribute, or None for one that the class does not have."""
+        return self.static.get(attribute, self.state.get(attribute))
+
 
 @dataclass(frozen=True, slots=True)
 class Effect:

@@ -20,7 +20,8 @@ from models.world.domain import (
     Parameter,
 )
 from models.world.expression import Expression, ExpressionError, Truth, parse_expression
-from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_SYNONYMS, MAX_VALUES
+from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_SYNONYMS, MAX_TEXT, MAX_TEXTS, MAX_VALUES
+from models.world.name_faults import name_fault
 from models.world.names import IDENTIFIER, NONE, hint
 from models.world.report import Report
 from models.world.specs import ActionSpec, DefinitionSpec, DomainSpec, FunctionSpec, OutcomeSpec
@@ -36,24 +37,6 @@ def read_domain(spec: DomainSpec, report: Report) -> Domain | None:
     return domain if len(report.places) == before else None
 
 
-def name_fault(name: str) -> str | None:
-    """Why a text cannot name an object or value, or None."""
-    if not name.strip() or name != name.strip():
-        return "a name may not be empty or begin or end with a space"
-    if len(name) > MAX_NAME:
-        return f"a name may have at most {MAX_NAME} characters"
-    if not name.isprintable() or '"' in name or "\\" in name:
-        return "a name may not hold control characters, quotes or backslashes"
-    return f"{NONE} is the name of no value" if name == NONE else None
-
-
-def environment_name_fault(name: str) -> str | None:
-    """Why a text cannot name an environment, or None. The name is one segment of a URL path."""
-    if name in (".", "..") or "/" in name or "\\" in name:
-        return "the name is part of a web address: it may not hold / or \\, nor be . or .."
-    return name_fault(name)
-
-
 class _Reader:
     """Reads one domain, section by section."""
 
@@ -67,6 +50,9 @@ class _Reader:
         if fault := name_fault(spec.name):
             report.add(["name"], fault)
         self._sizes()
+        if sum(map(len, _expressions(spec))) > MAX_TEXTS:
+            report.add([], f"the expressions have more than {MAX_TEXTS} characters together")
+            return None
         attributes = {kind: self._values(kind, values) for kind, values in spec.attributes.items()}
         classes = {name: self._class(name) for name in spec.classes}
         parameters = {name: self._parameter(name) for name in spec.parameters}
@@ -132,6 +118,9 @@ class _Reader:
             self.report.add([*path, "state", attribute], f"{attribute} is a static attribute too")
         if len(spec.words) > MAX_SYNONYMS:
             self.report.add([*path, "words"], f"at most {MAX_SYNONYMS} entries")
+        for index, word in enumerate(spec.words[:MAX_SYNONYMS]):
+            if fault := name_fault(word):
+                self.report.add([*path, "words", index], fault)
         read = {
             section: {a: self._kinds(kinds, (*path, section, a), none=True) for a, kinds in attributes.items()}
             for section, attributes in sections.items()
@@ -221,12 +210,17 @@ class _Reader:
         self._pattern((*path, "says"), says, arguments)
         if spec.denies is not None:
             self._pattern((*path, "denies"), denies, arguments)
-        for index, pattern in enumerate(spec.display):
+        if len(spec.display) > MAX_SYNONYMS:
+            self.report.add([*path, "display"], f"at most {MAX_SYNONYMS} entries")
+        for index, pattern in enumerate(spec.display[:MAX_SYNONYMS]):
             self._display((*path, "display", index), pattern, arguments)
         parameters = tuple(FunctionParameter(a.name, frozenset(a.kinds)) for a in arguments)
         return Function(name, parameters, says, denies, tuple(spec.display))
 
     def _pattern(self, path: tuple[str | int, ...], pattern: str, arguments: tuple[Argument, ...]) -> list[str]:
+        if len(pattern) > MAX_TEXT or not pattern.isprintable():
+            self.report.add(path, f"at most {MAX_TEXT} characters, no line breaks or control characters")
+            return []
         names = [argument.name for argument in arguments]
         holes = _HOLE.findall(pattern)
         for hole in holes:
@@ -319,6 +313,15 @@ class _Reader:
         except ExpressionError as error:
             self.report.add(path, str(error))
         return expression
+
+
+def _expressions(spec: DomainSpec) -> Iterable[str]:
+    yield from (body.expression for body in (*spec.define.values(), *spec.functions.values()))
+    yield from spec.constraints
+    for action in spec.actions.values():
+        yield action.when
+        for outcome in action.outcomes:
+            yield from (outcome.probability, *outcome.set.values())
 
 
 def read_values(values: list[str], path: tuple[str | int, ...], report: Report) -> tuple[str, ...]:

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from models.world.domain import Domain
-from models.world.domain_reader import environment_name_fault, name_fault, read_values
+from models.world.domain_reader import read_values
 from models.world.grid import read_grid
 from models.world.limits import MAX_OBJECTS, MAX_SYNONYMS, MAX_VALUES, MAX_VARIABLES
 from models.world.model import Model, StateAttribute
+from models.world.name_faults import environment_name_fault, name_fault
 from models.world.names import NONE, hint, listing
 from models.world.report import Report
 from models.world.specs import ObjectSpec, OomdpSpec

@@ -46,6 +46,7 @@ _COMPARISONS = {
 }
 _ARITHMETIC: dict[str, Any] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide}
 _REMEMBERED = 4_096
+_STEP = 16  # what evaluating one node costs, in entries of the algebra
 TRUE = Table((), np.array(True))
 FALSE = Table((), np.array(False))
 
@@ -68,15 +69,22 @@ class Evaluator:
         self._members: dict[str, list[int]] = {}
         for symbol, number in self.numbers.items():
             self._members.setdefault(symbol.kind, []).append(number)
+        self._every = tuple(range(len(self._constants)))
+        attributes = model.domain.attributes
+        self._values = {kind: frozenset(values) for kind, values in attributes.items()}
+        self._kind_of = {value: kind for kind in reversed([*attributes]) for value in attributes[kind]}  # the first
+        self._tests: dict[tuple[str, ...], NDArray[np.bool_]] = {}
         self._static: dict[str, NDArray[np.int32]] = {}
         self._owners: dict[str, dict[int, int]] = {}
         for (owner, attribute), position in self.positions.items():
             self._owners.setdefault(attribute, {})[self.numbers[owner]] = position
         self._calls: dict[tuple[str, tuple[Value, ...]], Value] = {}
         self._reach: dict[Value, tuple[int, ...]] = {}
+        self._ranges: dict[tuple[int, ...], tuple[int, ...]] = {}
 
     def overriding(self, changes: Mapping[int, Value]) -> Evaluator:
         """An evaluator in whose states the variables at some positions have other values."""
+        self.algebra.spend(len(self._variables))
         other = object.__new__(Evaluator)
         other.__dict__.update(self.__dict__)
         other._variables = [changes.get(position, value) for position, value in enumerate(self._variables)]
@@ -89,6 +97,7 @@ class Evaluator:
         if len(self._calls) > _REMEMBERED:
             self._calls.clear()
             self._reach.clear()
+            self._ranges.clear()
 
     def symbol(self, symbol: Symbol) -> Value:
         """The constant function of a symbol."""
@@ -104,6 +113,7 @@ class Evaluator:
 
     def evaluate(self, expression: Expression, scope: Scope) -> Value:
         """The function of the state that an expression is."""
+        self.algebra.spend(_STEP)
         match expression:
             case Number(value=number):
                 return Table((), np.array(number))
@@ -165,12 +175,11 @@ class Evaluator:
             return self.symbol(self.model.objects[name])
         if name in self.model.parameters:
             return Table((), np.array(self.model.parameters[name]))
-        kind = next(kind for kind, values in domain.attributes.items() if name in values)
-        return self.symbol(Symbol(kind, name))
+        return self.symbol(Symbol(self._kind_of[name], name))
 
     def _access(self, expression: Access, scope: Scope) -> Value:
         attribute = expression.attribute
-        if isinstance(expression.base, Variable) and qualified_value(expression, scope, self.model.domain.attributes):
+        if isinstance(expression.base, Variable) and qualified_value(expression, scope, self._values):
             return self.symbol(Symbol(expression.base.name, attribute))
         base = self.evaluate(expression.base, scope)
         static = self._table(attribute)
@@ -178,7 +187,9 @@ class Evaluator:
         if isinstance(base, Table) and not base.scope:
             number = int(base.array)
             return self._variables[owners[number]] if number in owners else self._constants[int(static[number])]
-        reachable = [number for number in self._reachable(base) if number in owners] if owners else []
+        reach = self._reachable(base) if owners else ()
+        self.algebra.spend(len(reach))
+        reachable = [number for number in reach if number in owners]
         if not reachable:
             return self._remember(self.algebra.combine(static.__getitem__, base), None)
 
@@ -189,9 +200,12 @@ class Evaluator:
             return result
 
         variables = [self._variables[owners[number]] for number in reachable]
-        found = {int(static[number]) for number in self._reachable(base)}
-        found.update(number for variable in variables for number in self._reachable(variable))
-        return self._remember(self.algebra.combine(follow, base, *variables), found)
+        value = self.algebra.combine(follow, base, *variables)
+        if isinstance(value, Table):
+            return value
+        ranges = {id(one): one for one in map(self._reachable, variables)}.values()  # few, shared by many variables
+        self.algebra.spend(8 * len(variables) + sum(map(len, ranges)))
+        return self._remember(value, set(static[list(reach)].tolist()).union(*ranges))
 
     def _table(self, attribute: str) -> NDArray[np.int32]:
         """Symbol number to the number of its static attribute's value, 0 where it has none."""
@@ -208,21 +222,26 @@ class Evaluator:
 
     def _remember(self, value: Value, reach: set[int] | None) -> Value:
         if isinstance(value, Combined):
-            self._reach[value] = tuple(sorted(reach)) if reach is not None else tuple(range(len(self._constants)))
+            self._reach[value] = self._shared(tuple(sorted(reach))) if reach is not None else self._every
         return value
+
+    def _shared(self, reach: tuple[int, ...]) -> tuple[int, ...]:
+        """The same tuple for the same numbers."""
+        return self._ranges.setdefault(reach, reach)
 
     def _reachable(self, value: Value) -> tuple[int, ...]:
         """The numbers that an object-valued function may take."""
         if value not in self._reach:
-            every = range(len(self._constants))
-            self._reach[value] = tuple(np.unique(value.array).tolist()) if isinstance(value, Table) else tuple(every)
+            numbers = tuple(np.unique(value.array).tolist()) if isinstance(value, Table) else self._every
+            self._reach[value] = self._shared(numbers)
         return self._reach[value]
 
     def _is(self, value: Value, kinds: tuple[str, ...]) -> Value:
-        member = np.zeros(len(self._constants), dtype=np.bool_)
-        for kind in kinds:
-            member[[0] if kind == NONE else self._members.get(kind, [])] = True
-        return self.algebra.combine(member.__getitem__, value)
+        if kinds not in self._tests:
+            member = self._tests[kinds] = np.zeros(len(self._constants), dtype=np.bool_)
+            for kind in kinds:
+                member[[0] if kind == NONE else self._members.get(kind, [])] = True
+        return self.algebra.combine(self._tests[kinds].__getitem__, value)
 
     def _arithmetic(self, expression: Arithmetic, scope: Scope) -> Value:
         left, right = self.evaluate(expression.left, scope), self.evaluate(expression.right, scope)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from models.logic.formula import Atom
 from models.world.domain import Function
-from models.world.domain_reader import environment_name_fault, name_fault
 from models.world.limits import MAX_EXPLICIT_CELLS
+from models.world.name_faults import environment_name_fault, name_fault
 from models.world.report import Report
 from models.world.resolution import bind_names
 from models.world.specs import ExplicitSpec, TransitionSpec

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from models.world.domain_reader import name_fault
 from models.world.limits import MAX_OBJECTS
+from models.world.name_faults import name_fault
 from models.world.names import hint
 from models.world.report import Report
 from models.world.specs import GridSpec

@@ -7,7 +7,9 @@ from typing import Final
 MAX_NAME: Final = 100
 """Characters in a name of anything."""
 MAX_TEXT: Final = 1_000
-"""Characters in one expression."""
+"""Characters in one expression, reading or display pattern."""
+MAX_TEXTS: Final = 200_000
+"""Characters in all expressions of a domain together."""
 MAX_NESTING: Final = 40
 """Nesting of one expression."""
 MAX_EXPANDED_NESTING: Final = 80
@@ -21,7 +23,7 @@ MAX_OBJECTS: Final = 5_000
 MAX_VALUES: Final = 5_000
 """Attribute values of one environment."""
 MAX_SYNONYMS: Final = 50
-"""Synonyms of one object."""
+"""Synonyms of one object, words of one class, display patterns of one function."""
 MAX_VARIABLES: Final = 2_000
 """State attributes of all objects together."""
 MAX_STATES: Final = 2**40

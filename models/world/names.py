@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
 import unicodedata
 from collections.abc import Iterable
+from difflib import SequenceMatcher
 from functools import lru_cache
 from itertools import islice
 
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _WORD = re.compile(r"[^\W_]+")
 _SPELLINGS = {"colour": "color", "colours": "colors", "coloured": "colored", "grey": "gray"}
+_MOST_COMPARED = 16
 NONE = "none"
 """The value of an attribute that has no value; no object or attribute value may have this name."""
 
@@ -50,15 +51,32 @@ def singular(word: str) -> str:
     return word
 
 
+def closest(text: str, others: Iterable[str], *, cutoff: float) -> list[tuple[float, int]]:
+    """How alike each of `others` is to the text (`SequenceMatcher.ratio`, of at least `cutoff`) and its index, closest
+    first, earlier first among equals. Of very many that could be close only the most promising are compared.
+    """
+    matcher = SequenceMatcher(autojunk=False, b=text)  # analyses b once
+    promising: list[tuple[float, int, str]] = []
+    for index, other in enumerate(others):
+        matcher.set_seq1(other)
+        if matcher.real_quick_ratio() >= cutoff and (bound := matcher.quick_ratio()) >= cutoff:
+            promising.append((-bound, index, other))
+    found: list[tuple[float, int]] = []
+    for _, index, other in sorted(promising)[:_MOST_COMPARED]:
+        matcher.set_seq1(other)
+        if (ratio := matcher.ratio()) >= cutoff:
+            found.append((ratio, index))
+    return sorted(found, key=lambda each: (-each[0], each[1]))
+
+
 def hint(name: str, known: Iterable[str]) -> str:
     """` (did you mean ...?)` for the closest known name, else the known names when they are few, else
     nothing.
     """
-    names = list(dict.fromkeys(islice(known, 2_000)))
-    by_case = {other.casefold(): other for other in reversed(names)}
-    close = difflib.get_close_matches(name[:200].casefold(), by_case, n=1, cutoff=0.6)
+    names = list(dict.fromkeys(islice(known, 1_000)))
+    close = closest(name[:100].casefold(), (other.casefold() for other in names), cutoff=0.6)
     if close:
-        return f" (did you mean {by_case[close[0]]}?)"
+        return f" (did you mean {names[close[0][1]]}?)"
     if 0 < len(names) <= 8:
         return f" (known: {', '.join(names)})"
     return ""

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import SequenceMatcher
 from itertools import islice
 
 from models.world.environment import Environment
 from models.world.grounding import spoken_words, symbols_of
-from models.world.names import words
+from models.world.names import closest, words
 from models.world.vocabulary import Symbol, Vocabulary
 
 _ENOUGH = 0.7  # of SequenceMatcher.ratio: one letter in three letters is too much, one in four is not
@@ -27,16 +26,16 @@ def suggest(phrase: str, environment: Environment, *, kinds: frozenset[str] | No
     vocabulary = environment.vocabulary
     said = spoken_words(phrase)
     wanted = [" ".join(said)[:_LONGEST], " ".join(_without_values(said, vocabulary))[:_LONGEST]]
-    best: dict[Symbol, tuple[float, str]] = {}
+    best: dict[Symbol, tuple[float, int, str]] = {}
+    named = list(islice(_names(symbols_of(vocabulary, kinds), vocabulary), _MOST_NAMES))
+    plain = [" ".join(spoken_words(name)) for _, name in named]
     for text in dict.fromkeys(filter(None, wanted)):
-        matcher = SequenceMatcher(autojunk=False, b=text)  # analyses b once for every name
-        for symbol, name in islice(_names(symbols_of(vocabulary, kinds), vocabulary), _MOST_NAMES):
-            plain = " ".join(spoken_words(name))
-            close = _closeness(matcher, plain) if plain != text else 0.0  # the same is no misspelling
-            if close > best.get(symbol, (0.0, ""))[0]:
-                best[symbol] = (close, name)
-    ranked = sorted(best.values(), key=lambda found: -found[0])
-    return tuple(dict.fromkeys(name for _, name in ranked))[:_MOST]
+        for ratio, index in closest(text, plain, cutoff=_ENOUGH):
+            symbol, name = named[index]
+            if plain[index] != text and ratio > best.get(symbol, (0.0, 0, ""))[0]:  # the same is no misspelling
+                best[symbol] = (ratio, -index, name)
+    ranked = sorted(best.values(), reverse=True)
+    return tuple(dict.fromkeys(name for _, _, name in ranked))[:_MOST]
 
 
 def _without_values(said: tuple[str, ...], vocabulary: Vocabulary) -> tuple[str, ...]:
@@ -48,12 +47,3 @@ def _names(symbols: tuple[Symbol, ...], vocabulary: Vocabulary) -> Iterator[tupl
     """All names before all synonyms, so that a limit leaves out synonyms first."""
     yield from ((symbol, symbol.name) for symbol in symbols)
     yield from ((symbol, synonym) for symbol in symbols for synonym in vocabulary.synonyms.get(symbol, ()))
-
-
-def _closeness(matcher: SequenceMatcher[str], name: str) -> float:
-    """How alike the texts are; 0 for too little."""
-    matcher.set_seq1(name)
-    if matcher.real_quick_ratio() < _ENOUGH or matcher.quick_ratio() < _ENOUGH:
-        return 0.0
-    ratio = matcher.ratio()
-    return ratio if ratio >= _ENOUGH else 0.0

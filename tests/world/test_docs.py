@@ -33,8 +33,8 @@ def test_the_complete_example(page):
         outcomes = world.outcomes(world.actions.index(action), np.array([index]))
         return outcomes.enabled[0], outcomes.successor[0, 0], outcomes.probability[:, 0].tolist()
 
-    enabled, in_kitchen, _ = do("east", world.initial)
-    assert enabled
+    enabled, in_kitchen, chances = do("east", world.initial)
+    assert (enabled, chances) == (True, [0.9, 0.1])
     assert not do("press(ceiling_lamp)", in_kitchen)[0], "two lamps would be on"
     enabled, dark, chances = do("press(floor_lamp)", world.initial)
     assert (enabled, chances) == (True, [0.8, 0.2])

@@ -27,8 +27,23 @@ def test_tiny():
 def test_repeated_successors_are_merged():
     data = changed(TINY, ("transitions/0/to", [[1, 0.25], [0, 0.5], [1, 0.25]]))
     go = compile_world(load_environment(data)).outcomes(0)
-    assert go.probability[:, 0].tolist() == [0.5, 0.5, 0.0]
-    assert go.successor[:, 0].tolist() == [1, 0, 0]
+    assert go.probability[:, 0].tolist() == [0.5, 0.5]
+    assert go.successor[:, 0].tolist() == [1, 0]
+
+
+def test_impossible_outcomes_lead_nowhere():
+    data = changed(TINY, ("transitions/0/to", [[2, 0.0], [1, 0.5], [2, 0.5]]))
+    go = compile_world(load_environment(data)).outcomes(0)
+    assert go.probability.tolist() == [[0.5, 1.0, 0.0], [0.5, 0.0, 0.0]]
+    assert go.successor.tolist() == [[1, 2, 2], [2, 1, 2]]
+
+
+def test_labels_of_some_states_are_those_of_all():
+    world = compile_world(load_environment(changed(TINY, ("labels", {"a": [2, 0, 2], "b": [], "c": [1]}))))
+    atoms, states = [Atom("a"), Atom("b"), Atom("c")], np.array([2, 1, 0, 0])
+    every = world.labels(atoms)
+    assert every.tolist() == [[True, False, True], [False, False, False], [False, True, False]]
+    assert world.labels(atoms, states).tolist() == every[:, states].tolist()
 
 
 def test_outcomes_cannot_be_changed_by_a_caller():

@@ -1,6 +1,7 @@
 """Expressions: what is read, how it nests, what is refused."""
 
 import contextlib
+import re
 
 import pytest
 from hypothesis import given
@@ -76,12 +77,12 @@ def test_reads(text, expected):
         ("(a", "ends too early"),
         ("a b", "at character 3: 'b'"),
         ("a == b == c", "at character 8: '== c'"),
-        ("a ! b", "at character 3: '! b'"),
+        ("a ! b", "at character 3: '! b' (write not)"),
         ("a.", "ends too early"),
         ("any(x; a)", "at character 6"),
         ("1e999", "too large"),
         ("__import__('os')", "at character 12"),
-        ("a = b", "at character 3"),
+        ("a = b", "at character 3: '= b' (write == to compare)"),
         ("lambda: a", "at character 7"),
         ("a" * (MAX_TEXT + 1), f"longer than {MAX_TEXT}"),
         ("(" * 400 + "a" + ")" * 400, None),
@@ -98,8 +99,49 @@ def test_refuses(text, message):
     if message is None:  # redundant parentheses do not nest
         assert parse_expression(text) == A
         return
-    with pytest.raises(ExpressionError, match=message.replace("(", r"\(")):
+    with pytest.raises(ExpressionError, match=re.escape(message)):
         parse_expression(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "instead"),
+    [
+        ("a = b", "== to compare"),
+        ("a === b", "== to compare"),
+        ("a <-> b", "== to compare"),
+        ("a <=> b", "== to compare"),
+        ("a =< b", "<= to compare"),
+        ("a <> b", "!= to compare"),
+        ("a ≠ b", "!= to compare"),
+        ("a && b", "and"),
+        ("a & b", "and"),
+        ("a AND b", "and"),
+        ("a || b", "or"),
+        ("a | b", "or"),
+        ("a is b || c", "or"),
+        ("!a", "not"),
+        ("a and !b", "not"),
+        ("NOT a", "not"),
+        ("¬a", "not"),
+        ("a -> b", "implies"),
+        ("a->b", "implies"),
+        ("a => b", "implies"),
+        ("a -->", "implies"),
+        ("a == 'b'", "names in double quotes"),
+    ],
+)
+def test_operators_of_other_languages_are_explained(text, instead):
+    with pytest.raises(ExpressionError) as caught:
+        parse_expression(text)
+    assert str(caught.value).endswith(f" (write {instead})")
+    assert len(str(caught.value)) < 100
+
+
+@pytest.mark.parametrize("text", ["a b", "!= b", "a == == b", "a < > b", "any(x; a)", "a and and b", "if a"])
+def test_other_faults_are_only_placed(text):
+    with pytest.raises(ExpressionError, match=r"^cannot read the expression at character") as caught:
+        parse_expression(text)
+    assert "write" not in str(caught.value)
 
 
 @given(st.text(alphabet='abx.()|:;,<=>!+-*/"01 ifelsenotandorcount\n', max_size=60))

@@ -44,6 +44,30 @@ def test_the_data_are_json_of_the_published_shape(name):
     assert compile_world(load_environment(dumped)).actions == compile_world(load_environment(data)).actions
 
 
+def test_the_schema_of_an_environment():
+    schema = ENVIRONMENT.json_schema(by_alias=True)
+    for name, kind in (("OomdpSpec", "oomdp"), ("ExplicitSpec", "explicit")):
+        spec = schema["$defs"][name]
+        assert {"kind", "name"} <= set(spec["required"])
+        assert spec["properties"]["kind"]["const"] == kind
+        assert "default" not in spec["properties"]["kind"]
+    texts = [
+        schema["$defs"]["OutcomeSpec"]["properties"]["probability"],
+        schema["$defs"]["ActionSpec"]["properties"]["when"],
+        schema["$defs"]["FunctionSpec"]["properties"]["is"],
+        schema["$defs"]["DefinitionSpec"]["properties"]["is"],
+    ]
+    for text in texts:
+        assert text["type"] == "string"
+        assert "read too" in text["description"]
+
+
+@pytest.mark.parametrize("name", BUILTIN)
+def test_every_built_in_environment_gives_its_kind(name):
+    assert BUILTIN[name]["kind"] == "oomdp"
+    assert toys_spec()["kind"] == navigation_spec()["kind"] == "oomdp"
+
+
 def test_builtin_environments_are_fresh_copies():
     dict(builtin_environments())["toys"]["objects"].clear()
     assert dict(builtin_environments())["toys"]["objects"]

@@ -1,10 +1,13 @@
 """Every kind of wrong data is refused with the exact place."""
 
+import time
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from models.world import WorldError, builtin_environments, load_environment, toys_spec
+from models.logic.formula import Atom, Name
+from models.world import WorldError, builtin_environments, compile_world, load_environment, toys_spec
 from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_OBJECTS
 from tests.world.worlds import REMOVE, SWITCHES, TINY, changed
 
@@ -28,13 +31,17 @@ def faults(data):
 SHAPES = [
     ("name", REMOVE, "/name", "field required"),
     ("name", 7, "/name", "valid string"),
-    ("kind", REMOVE, "", "kind"),
-    ("kind", "pomdp", "", "pomdp"),
+    ("kind", REMOVE, "/kind", "the kind is missing: give oomdp or explicit"),
+    ("kind", "pomdp", "/kind", "there is no such kind of environment: give oomdp or explicit"),
+    ("kind", ["oomdp"], "/kind", "give oomdp or explicit"),
     ("colour", "red", "/colour", "extra"),
     ("objects/one/class", REMOVE, "/objects/one/class", "required"),
     ("objects/one/colour", "red", "/objects/one/colour", "extra"),
     (f"{D}actions/flip/outcomes", [], "/domain_spec/actions/flip/outcomes", "at least 1"),
-    (f"{D}actions/flip/outcomes/0/probability", 0.5, "/domain_spec/actions/flip/outcomes/0/probability", "string"),
+    (f"{FLIP}outcomes/0/probability", None, "/domain_spec/actions/flip/outcomes/0/probability", "finite number"),
+    (f"{FLIP}outcomes/0/probability", float("inf"), "/domain_spec/actions/flip/outcomes/0/probability", "finite"),
+    (f"{FLIP}outcomes/0/set", {"robot.by": ["x"]}, "/domain_spec/actions/flip/outcomes/0/set/robot.by", "is text"),
+    (f"{FLIP}when", 10**400, "/domain_spec/actions/flip/when", "finite number"),
     (f"{D}parameters/p", 0.5, "/domain_spec/parameters/p", "dictionary"),
     (f"{D}parameters/p/default", "0.5", "/domain_spec/parameters/p/default", "number"),
     (f"{D}parameters/p/default", float("nan"), "/domain_spec/parameters/p/default", "finite"),
@@ -71,6 +78,16 @@ DOMAINS = [
     (f"{LIT}is", "x.levl == high", "functions/lit/is", "did you mean level"),
     (f"{LIT}is", "x.level == red", "functions/lit/is", "never equal"),
     (f"{LIT}is", "x.level == hihg", "functions/lit/is", "nothing is called hihg"),
+    (f"{LIT}is", "x.level == highest", "functions/lit/is", "nothing is called highest (did you mean high?)"),
+    (f"{LIT}is", "x.level == HIGH", "functions/lit/is", "nothing is called HIGH (did you mean high?)"),
+    (f"{LIT}is", "True", "functions/lit/is", "nothing is called True (did you mean true?)"),
+    (f"{LIT}is", "brite", "functions/lit/is", "nothing is called brite (did you mean bright?)"),
+    (f"{LIT}is", "bright", "functions/lit/is", "bright is a definition or function: write bright(x)"),
+    (f"{LIT}is", "idle", "functions/lit/is", "idle is a definition or function: write idle()"),
+    (f"{LIT}is", "x == lamp", "functions/lit/is", "lamp is a kind, not an object or value"),
+    (f"{LIT}is", "x.level == level.hig", "functions/lit/is", "level has no value hig (did you mean high?)"),
+    (f"{LIT}is", "x.level is high", "functions/lit/is", "high is not a kind: write == high"),
+    (f"{LIT}is", "x.level = high", "functions/lit/is", "write == to compare"),
     (f"{LIT}is", "brigt(x)", "functions/lit/is", "did you mean bright"),
     (f"{LIT}is", "bright(x, x)", "functions/lit/is", "1 arguments, not 2"),
     (f"{LIT}is", "bright(robot)", "functions/lit/is", "must be lamp, but may be robot"),
@@ -82,6 +99,10 @@ DOMAINS = [
     (f"{LIT}is", "p.level == high", "functions/lit/is", "object or value is needed"),
     (f"{LIT}is", "(x if true else 1) == x", "functions/lit/is", "one branch"),
     (f"{LIT}is", "x.level == none", "functions/lit/is", "never equal"),
+    (f"{LIT}says", "{x} is\non", "functions/lit/says", "line breaks"),
+    (f"{LIT}says", "x" * 1_001, "functions/lit/says", "at most 1000 characters"),
+    (f"{LIT}display", ["{x}_on"] * 51, "functions/lit/display", "at most 50"),
+    (f"{D}classes/lamp/words", ["a\nb"], "classes/lamp/words/0", "control"),
     (f"{LIT}says", "{y} is on", "functions/lit/says", "no argument"),
     (f"{LIT}denies", "{y} is off", "functions/lit/denies", "no argument"),
     (f"{LIT}display/0", "on", "functions/lit/display/0", "exactly once"),
@@ -124,6 +145,12 @@ DOMAINS = [
 ENVIRONMENTS = [
     ("name", "", "/name", "empty"),
     ("name", "a\nb", "/name", "control"),
+    ("name", "\ud800", "/name", "control"),
+    ("name", "a ", "/name", "end with a space"),
+    ("name", "a/b", "/name", "part of a web address"),
+    ("name", "a\\b", "/name", "part of a web address"),
+    ("name", ".", "/name", "part of a web address"),
+    ("name", "..", "/name", "part of a web address"),
     ("parameters", {"q": 0.5}, "/parameters/q", "no parameter q"),
     ("parameters", {"p": 1.5}, "/parameters/p", "between 0 and 1, not 1.5"),
     ("values", {"colour": ["teal"]}, "/values/colour", "did you mean color"),
@@ -143,6 +170,17 @@ ENVIRONMENTS = [
     ("state/two", REMOVE, "/state", "level of two is missing"),
     ("state/two/level", REMOVE, "/state/two", "level of two is missing"),
 ]
+
+
+@pytest.mark.parametrize("data", [SWITCHES, TINY])
+@pytest.mark.parametrize("name", ["Küche 2", "東京", "a.b", "...", "50% off?", "H&M #1"])
+def test_names_that_fit_an_address(data, name):
+    assert load_environment(changed(data, ("name", name))).name == name
+
+
+@pytest.mark.parametrize("name", ["a/b", "a\\b", ".", "..", " a", "a\n"])
+def test_names_of_explicit_environments_fit_an_address_too(name):
+    assert list(faults(changed(TINY, ("name", name)))) == ["/name"]
 
 
 @pytest.mark.parametrize(("path", "value", "pointer", "detail"), SHAPES)
@@ -179,6 +217,40 @@ def test_the_initial_state_keeps_the_constraints():
 def test_an_unknown_builtin_domain():
     assert faults(changed(toys_spec(), ("domain", "toy"))) == {
         "/domain": "there is no built-in domain toy (did you mean toys?)"
+    }
+
+
+FORMS = [
+    (f"{FLIP}outcomes/0/probability", 0.5, "1/2"),
+    (f"{FLIP}outcomes", [{"probability": 1}], [{"probability": "1"}]),
+    (f"{FLIP}outcomes", [{"probability": 1e-7}, {"probability": "1 - 0.0000001"}], None),
+    (f"{FLIP}when", True, "true"),
+    (f"{FLIP}when", False, "false"),
+    (f"{LIT}is", True, "true"),
+    (f"{D}define/bright/is", False, "false"),
+    (f"{D}constraints", [True], ["true"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("path", "value", "text"), FORMS)
+def test_numbers_and_truth_values_are_expressions(path, value, text):
+    world = compile_world(load_environment(changed(SWITCHES, (path, value))))
+    if text is None:
+        return
+    same = compile_world(load_environment(changed(SWITCHES, (path, text))))
+    assert (world.actions, world.valid().tolist()) == (same.actions, same.valid().tolist())
+    lit = [Atom("lit", (Name("one"),))]
+    assert world.labels(lit).tolist() == same.labels(lit).tolist()
+    for action in range(len(world.actions)):
+        assert world.outcomes(action).enabled.tolist() == same.outcomes(action).enabled.tolist()
+        assert world.outcomes(action).probability.tolist() == same.outcomes(action).probability.tolist()
+
+
+def test_a_number_is_still_checked_as_an_expression():
+    found = faults(changed(SWITCHES, (f"{FLIP}when", 1), (f"{FLIP}outcomes/0/set", {"robot.by": 2})))
+    assert found == {
+        "/domain_spec/actions/flip/when": "must be true or false, not number",
+        "/domain_spec/actions/flip/outcomes/0/set/robot.by": "robot.by may be lamp or none, never number",
     }
 
 
@@ -275,6 +347,68 @@ EXPLICIT = [
 @pytest.mark.parametrize(("path", "value", "pointers"), EXPLICIT)
 def test_wrong_explicit_environments(path, value, pointers):
     assert list(faults(changed(TINY, (path, value)))) == pointers
+
+
+def test_many_outcomes_of_one_transition_are_quick():
+    wide = {"from": 0, "action": "go", "to": [[i % 2, 1 / 4_096] for i in range(4_096)]}
+    world = compile_world(load_environment(changed(TINY, ("states", 4_096), ("transitions", [wide]))))
+    assert world.outcomes(0).probability[:, 0].tolist() == [0.5, 0.5]
+
+
+def test_a_domain_cannot_hold_any_amount_of_text():
+    action = {"outcomes": [{"probability": "0" * 900}] * 200}
+    assert (
+        "characters together" in faults(changed(SWITCHES, (f"{D}actions", {"a": action, "b": action})))["/domain_spec"]
+    )
+
+
+HEAVY = {
+    "chains over many variables": {"when": "x.in.in.in.in.in.in.in.in.in.in.in.in.in.in.in.in != y"},
+    "tests of many kinds": {"when": " and ".join(["x.in.in is not cell"] * 40)},
+    "checks of large tables": {
+        "when": "x != y",
+        "outcomes": [{"probability": " + ".join(f"(0.001 * {i} if x.in == y.in else 0)" for i in range(24))}],
+    },
+}
+
+
+@pytest.mark.parametrize("action", HEAVY.values(), ids=HEAVY)
+def test_work_is_counted_where_it_is_done(action):
+    """Each of these took half a minute or more when only array operations counted."""
+    things = {f"b{i}": {"class": "thing"} for i in range(60)}
+    domain = {
+        "name": "heavy",
+        "classes": {
+            "cell": {"static": dict.fromkeys(("north", "south", "east", "west"), "cell")},
+            "thing": {"state": {"in": "cell | thing"}},
+        },
+        "actions": {"a": {"arguments": ["x: thing", "y: thing"], "outcomes": [{}], **action}},
+    }
+    data = {
+        "name": "heavy",
+        "kind": "oomdp",
+        "domain_spec": domain,
+        "grid": {"class": "cell", "map": ["." * 30] * 30},
+        "objects": things,
+        "state": {name: {"in": "cell_1_1"} for name in things},
+    }
+    before = time.process_time()
+    assert "too much work" in faults(data)["/domain_spec/actions/a"]
+    assert time.process_time() - before < 10
+
+
+def test_lone_surrogates_do_not_reach_a_message():
+    for data in (changed(TINY, ("labels/\ud800", [0])), changed(SWITCHES, ("objects/one/class", "\ud800"))):
+        for pointer, detail in faults(data).items():
+            (pointer + detail).encode("utf-8")
+
+
+def test_hints_for_many_long_names_are_quick():
+    names = ["".join("abcdefgh"[(i * j) % 8] for j in range(1, 96)) + str(i) for i in range(2_000)]
+    wrong = {name: {"class": "lamp", "attributes": {"color": name[::-1]}} for name in names[:60]}
+    before = time.process_time()
+    assert len(faults(changed(SWITCHES, ("values", {"color": names}), ("objects", wrong)))) == 50
+    assert time.process_time() - before < 10
 
 
 def test_explicit_environments_cannot_fill_the_memory():
