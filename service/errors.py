@@ -6,6 +6,7 @@ CqltlError
 │   ├── UnknownTemplateError
 │   └── UnknownPolicyError
 ├── TemplateConflictError      another template is stored for the task
+├── TooManyExamplesError       a template keeps no more pairs or utterances
 ├── EnvironmentExistsError     an environment of that name is stored
 ├── NotUnderstoodError         no stored task fits the command to plan
 ├── AmbiguousCommandError      the command to plan fits several objects
@@ -49,6 +50,12 @@ class TemplateConflictError(CqltlError):
     """The task has another template, and the request did not say to replace it."""
 
     slug = "template-conflict"
+
+
+class TooManyExamplesError(CqltlError):
+    """A template keeps no more pairs or utterances."""
+
+    slug = "too-many-examples"
 
 
 class EnvironmentExistsError(CqltlError):

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from anyio.to_thread import run_sync
 
 from models.errors import CqltlError, Place
 from models.language import Wording
-from models.logic import parse
+from models.logic import FormulaTooLargeError, parse
 from models.logic import to_text as formula_text
 from models.queries import Example, Template, learn, parse_query
-from service.errors import TemplateConflictError
+from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
 from service.store import StoredExample, StoredPair, StoredTemplate
 from service.worker import ReviewJob, run_review
+
+T = TypeVar("T")
 
 MAX_EVIDENCE = 100
 """Pairs, and utterances, kept with one template."""
@@ -50,8 +54,10 @@ async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemp
     """
     environment, template = await run_sync(_derive, services, lesson)
     job = ReviewJob(template, environment.text)
-    with at("/ltl"):
+    try:
         warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
+    except (OutOfTimeError, FormulaTooLargeError) as error:
+        warnings = (f"the template was not checked for a simpler form: {error.detail}",)
     return await run_sync(_keep, services, lesson, template, warnings)
 
 
@@ -122,14 +128,21 @@ def _keep(
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
     """The new template in place of the known one; how people say the task stays known if its arguments are as many."""
     examples = known.examples if known.arity == new.arity else ()
-    kept = tuple(dict.fromkeys(examples + new.examples))[:MAX_EVIDENCE]
+    kept = _within(dict.fromkeys(examples + new.examples))
     return replace(new, examples=kept, revision=known.revision + 1)
 
 
 def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
     """The known template with what the new lesson adds to its pairs and utterances."""
-    pairs = tuple(dict.fromkeys(known.pairs + new.pairs))[:MAX_EVIDENCE]
-    examples = tuple(dict.fromkeys(known.examples + new.examples))[:MAX_EVIDENCE]
+    pairs = _within(dict.fromkeys(known.pairs + new.pairs))
+    examples = _within(dict.fromkeys(known.examples + new.examples))
     if (pairs, examples) == (known.pairs, known.examples):
         return known
     return replace(known, pairs=pairs, examples=examples, revision=known.revision + 1)
+
+
+def _within(kept: Iterable[T]) -> tuple[T, ...]:
+    found = tuple(kept)
+    if len(found) > MAX_EVIDENCE:
+        raise TooManyExamplesError(f"a template keeps at most {MAX_EVIDENCE} pairs and {MAX_EVIDENCE} utterances")
+    return found

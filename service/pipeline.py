@@ -127,6 +127,7 @@ def _translate_in(
         return mean(query)[1] is None or isinstance(mean(query)[1], AmbiguousGroundingError)
 
     found = understand(services, text, translator=translator, candidates=candidates, fits=fits)
+    found = tuple(translation for translation in found if _is_stored(services, translation.query))
     return Translated(text, tuple(Reading(t.query, t.confidence, *mean(t.query)) for t in found), environment)
 
 
@@ -173,6 +174,13 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
         answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
     policy_id = await run_sync(_keep_policy, services, environment.value.name, formula, answer)
     return Planned(meaning, formula, environment.value, answer, policy_id)
+
+
+def _is_stored(services: Services, query: ContextualQuery) -> bool:
+    """Whether a template is stored for the query's task and number of arguments."""
+    with services.store.read() as transaction:
+        stored = transaction.templates.find(query.task)
+    return stored is not None and stored.arity == len(query.arguments)
 
 
 def _mean(

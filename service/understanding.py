@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 from models.language import BEAM_WIDTH, TaughtTranslator, Translation
 from models.queries import ContextualQuery, parse_query
 from service.services import Services
+from service.store import StoredExample
 
 Fits = Callable[[ContextualQuery], bool]
 """Whether a query makes sense where the command was given."""
@@ -43,4 +45,9 @@ def _shared(readings: Sequence[Translation]) -> list[Translation]:
 def _taught(services: Services) -> TaughtTranslator:
     with services.store.read() as transaction:
         examples = transaction.templates.examples()
+    return _wordings(tuple(examples))
+
+
+@lru_cache(maxsize=4)
+def _wordings(examples: tuple[StoredExample, ...]) -> TaughtTranslator:
     return TaughtTranslator.of((example.text, parse_query(example.contextual_query)) for example in examples)

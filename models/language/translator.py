@@ -22,6 +22,25 @@ from models.queries import ContextualQuery
 
 BEAM_WIDTH = 5
 """Sequences that the search keeps, and so the most candidates."""
+NEGATIONS = frozenset(
+    [
+        "never",
+        "not",
+        "don't",
+        "dont",
+        "cannot",
+        "can't",
+        "won't",
+        "without",
+        "avoid",
+        "except",
+        "unless",
+        "nobody",
+        "nothing",
+    ]
+)
+"""Words that turn a command round. No task class of the network says such a thing, and the network, which learned from
+commands alone, reads "never pick up the sphere" as it reads "pick up the sphere"; so it does not read these at all."""
 MAX_OUTPUT = 48
 """Longest output sequence, in words and brackets."""
 
@@ -77,6 +96,8 @@ class CopyNetTranslator:
             raise ValueError("at least one candidate must be asked for")
         spoken = words(text)
         if not spoken:
+            return ()
+        if not NEGATIONS.isdisjoint(spoken):
             return ()
         source = self.vocabulary.source(spoken)
         hypotheses = self.hypotheses(source)

@@ -19,6 +19,8 @@ MAX_SLOT_WORDS = 6
 """Most words of a phrase that fills a slot."""
 MAX_STEPS = 20_000
 """Most comparisons for one command and wording; a wording that needs more does not match."""
+MAX_TOTAL_STEPS = 200_000
+"""Most comparisons for one command; wordings after that, the least literal ones, are not tried."""
 DETERMINERS = frozenset({"the", "a", "an", "this", "that", "my", "your"})
 """Left out of wordings and commands alike, where a phrase begins."""
 CONNECTIVES = frozenset({"and", "then", "or", "but", "until", "before", "after", "while", "unless"})
@@ -76,9 +78,12 @@ class Wording:
         """Number of words that must stand in a command."""
         return sum(isinstance(element, str) for element in self.elements)
 
-    def match(self, spoken: Sequence[str]) -> ContextualQuery | None:
-        """The query that the words of a command say in this wording, or None."""
-        budget = [MAX_STEPS]
+    def match(self, spoken: Sequence[str], budget: list[int] | None = None) -> ContextualQuery | None:
+        """The query that the words of a command say in this wording, or None.
+
+        `budget` holds the comparisons left, and is lowered by those made; MAX_STEPS of them by default.
+        """
+        budget = [MAX_STEPS] if budget is None else budget
         filled = next(self._fill(tuple(spoken), 0, 0, {}, budget), None)
         if filled is None or len(filled) != self.arity:
             return None
@@ -126,9 +131,14 @@ class TaughtTranslator:
         The readings of the most literal wordings share the confidence 1; the others have confidence 0.
         """
         spoken = words(text)
+        said, total = set(spoken), MAX_TOTAL_STEPS
         found: dict[ContextualQuery, int] = {}
         for wording in sorted(self.wordings, key=lambda wording: -wording.literal):
-            query = wording.match(spoken)
+            if not said.issuperset(element for element in wording.elements if isinstance(element, str)):
+                continue
+            budget = [min(MAX_STEPS, total)]
+            query = wording.match(spoken, budget)
+            total = total - min(MAX_STEPS, total) + max(budget[0], 0)
             if query is not None:
                 found.setdefault(query, wording.literal)
         best = [query for query, literal in found.items() if literal == max(found.values())]

@@ -15,6 +15,8 @@ from models.source import locate, quoted
 
 MAX_QUERY_TEXT = 4_096
 """Longest text of a contextual query, in characters."""
+MAX_TASK = 100
+"""Longest name of a task, in characters."""
 MAX_ARGUMENTS = 16
 """Most arguments of a contextual query."""
 
@@ -35,6 +37,8 @@ class ContextualQuery:
     def __post_init__(self) -> None:
         if not _NAME.fullmatch(self.task):
             raise QuerySyntaxError(f"the task {quoted(self.task)} is not a name (letters, digits and _)")
+        if len(self.task) > MAX_TASK:
+            raise QuerySyntaxError(f"the name of a task has at most {MAX_TASK} characters")
         if len(self.arguments) > MAX_ARGUMENTS:
             raise QuerySyntaxError(f"a contextual query has at most {MAX_ARGUMENTS} arguments")
         for position, phrase in enumerate(self.arguments, start=1):

@@ -74,5 +74,7 @@ class AmbiguousGroundingError(CqltlError):
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """The names of the candidates."""
-        return tuple(candidate.symbol.name for candidate in self.candidates)
+        """The names of the candidates, with their kinds where two have the same name."""
+        symbols = [candidate.symbol for candidate in self.candidates]
+        names = [symbol.name for symbol in symbols]
+        return tuple(s.name if names.count(s.name) == 1 else f"{s.kind}.{s.name}" for s in symbols)

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from models.errors import Place
-from models.logic import Formula, Name, Parameter, Term, atoms, substitute
+from models.logic import (
+    Atom,
+    Formula,
+    Name,
+    Nary,
+    Op,
+    Parameter,
+    Term,
+    Unary,
+    atoms,
+    children,
+    substitute,
+)
 from models.queries.contextual_query import ContextualQuery
 from models.queries.errors import AmbiguousGroundingError, ArityMismatchError
 from models.world import (
@@ -16,6 +28,7 @@ from models.world import (
     TypeMismatchError,
     UnknownObjectError,
     UnknownPropositionError,
+    distinct_name,
     ground,
     resolve,
     suggest,
@@ -117,7 +130,9 @@ def evaluate(
         words = _describing(template, query, index, kinds, environment)
         found = _ground_argument(query, index, kinds[index], environment, tags[index], words)
         bindings.append(Binding(index + 1, phrase, found))
-    terms: dict[Term, Term] = {Parameter(b.position): Name(b.candidate.symbol.name) for b in bindings}
+    terms: dict[Term, Term] = {
+        Parameter(b.position): Name(distinct_name(b.candidate.symbol, environment)) for b in bindings
+    }
     return GroundedTask(query, resolve(substitute(template.formula, terms), environment), tuple(bindings))
 
 
@@ -136,13 +151,26 @@ def _describing(
     """
     positions = {
         other.position - 1
-        for atom in atoms(template.formula)
+        for atom in _demanded(template.formula)
         if Parameter(index + 1) in atom.arguments
         for other in atom.arguments
         if isinstance(other, Parameter) and _are_values(kinds[other.position - 1], environment)
     }
     values = [query.arguments[position] for position in sorted(positions - {index})]
     return " ".join([*values, query.arguments[index]])
+
+
+def _demanded(formula: Formula) -> Iterator[Atom]:
+    """The atoms that hold at some time in every run that satisfies the formula, as far as its form shows it: those
+    under `&`, `F`, `G` and `X` alone. What is negated or one of several choices describes nothing.
+    """
+    stack = [formula]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Atom):
+            yield node
+        elif (isinstance(node, Unary) and node.op is not Op.NOT) or (isinstance(node, Nary) and node.op is Op.AND):
+            stack.extend(children(node))
 
 
 def _are_values(kinds: Kinds, environment: Environment) -> bool:

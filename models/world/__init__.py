@@ -14,7 +14,7 @@ from models.world.explanation import explain
 from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
-from models.world.resolution import atom_symbols, resolve
+from models.world.resolution import atom_symbols, distinct_name, resolve
 from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
 from models.world.suggestion import suggest
 from models.world.vocabulary import Symbol
@@ -44,6 +44,7 @@ __all__ = [
     "atom_symbols",
     "builtin_environments",
     "compile_world",
+    "distinct_name",
     "explain",
     "ground",
     "load_environment",

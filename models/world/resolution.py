@@ -31,8 +31,33 @@ def resolve_atom(atom: Atom, vocabulary: Vocabulary) -> Atom:
     if not atom.arguments and not _is_nullary(atom, vocabulary):
         atom = _compound(atom, vocabulary)
     symbols = bind(atom, vocabulary)
-    terms = (Name(s.name) if s else term for s, term in zip(symbols, atom.arguments, strict=True))
+    parameters = vocabulary.functions[atom.function].parameters
+    terms = (
+        Name(_canonical(symbol, parameter, vocabulary)) if symbol else term
+        for symbol, term, parameter in zip(symbols, atom.arguments, parameters, strict=True)
+    )
     return Atom(atom.function, tuple(terms))
+
+
+def qualified_name(symbol: Symbol) -> str:
+    """The name with its kind, `color.orange`: formulas may write it where the name alone has several meanings."""
+    return f"{symbol.kind}.{symbol.name}"
+
+
+def distinct_name(symbol: Symbol, environment: Environment) -> str:
+    """The name, with its kind if something else has the same name."""
+    return qualified_name(symbol) if len(environment.vocabulary.named(symbol.name)) > 1 else symbol.name
+
+
+def _canonical(symbol: Symbol, parameter: FunctionParameter, vocabulary: Vocabulary) -> str:
+    """The name, with its kind if the parameter takes something else of that name."""
+    homonyms = [other for other in vocabulary.named(symbol.name) if other.kind in parameter.kinds]
+    return qualified_name(symbol) if len(homonyms) > 1 else symbol.name
+
+
+def _qualified(name: str, vocabulary: Vocabulary) -> tuple[Symbol, ...]:
+    kind, dot, rest = name.partition(".")
+    return tuple(symbol for symbol in vocabulary.named(rest) if symbol.kind == kind) if dot else ()
 
 
 def bind(atom: Atom, vocabulary: Vocabulary) -> tuple[Symbol | None, ...]:
@@ -86,7 +111,7 @@ def _compound(atom: Atom, vocabulary: Vocabulary) -> Atom:
 
 
 def _argument(name: str, parameter: FunctionParameter, function: Function, vocabulary: Vocabulary) -> Symbol:
-    named = vocabulary.named(name) or vocabulary.loosely_named(name)
+    named = vocabulary.named(name) or _qualified(name, vocabulary) or vocabulary.loosely_named(name)
     fitting = [symbol for symbol in named if symbol.kind in parameter.kinds]
     if len(fitting) == 1:
         return fitting[0]
@@ -94,7 +119,8 @@ def _argument(name: str, parameter: FunctionParameter, function: Function, vocab
     place = f"{parameter.name} of {_signature(function)}"
     if len(fitting) > 1:
         choices = listing((f"{symbol.name} ({symbol.kind})" for symbol in fitting), "and")
-        raise TypeMismatchError(f"{place} could be any of {choices}: {name} does not tell them apart")
+        ways = " or ".join(f'"{qualified_name(symbol)}"' for symbol in fitting)
+        raise TypeMismatchError(f"{place} could be any of {choices}: write {ways}")
     if named:
         actual = listing(dict.fromkeys(symbol.kind for symbol in named), "and")
         raise TypeMismatchError(f"{place} must be {kinds}, but {name} is {actual}")

@@ -87,6 +87,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
             "inconsistent-examples",
             "example-argument-not-found",
             "example-too-general",
+            "too-many-examples",
             "out-of-time",
             "overloaded",
         ),

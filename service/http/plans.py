@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 from fastapi import APIRouter
@@ -68,6 +69,10 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
     return _plan_out(await plan(services, order), time.perf_counter() - started)
 
 
+def _finite(number: float | None) -> float | None:
+    return number if number is not None and math.isfinite(number) else None
+
+
 def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
     answer = planned.answer
     steps = [TrajectoryStep(state=state, memory=memory, action=action) for state, memory, action in answer.trajectory]
@@ -85,6 +90,7 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
         environment=planned.environment.name,
         probability=Bounds(lower=answer.lower, upper=answer.upper),
         expected_steps=answer.expected_steps,
+        expected_steps_upper=_finite(answer.expected_steps_upper),
         initial=Situation(state=answer.initial, memory=answer.initial_memory),
         trajectory=steps,
         trajectory_probability=answer.run_probability,

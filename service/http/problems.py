@@ -11,6 +11,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
+from sqlalchemy.exc import OperationalError
 from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
@@ -48,6 +49,7 @@ STATUS: dict[str, int] = {
     "ambiguous-grounding": 422,
     "unused-parameter": 422,
     "inconsistent-examples": 422,
+    "too-many-examples": 422,
     "example-argument-not-found": 422,
     "example-too-general": 422,
     # language
@@ -106,6 +108,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(CqltlError, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http_error)
+    app.add_exception_handler(OperationalError, _store_unavailable)
     app.add_exception_handler(Exception, _internal)
 
 
@@ -171,6 +174,11 @@ def _http_error(_request: Request, error: Exception) -> JSONResponse:
     response = problem_response(slug, str(detail), status=error.status_code)
     response.headers.update(error.headers or {})
     return response
+
+
+def _store_unavailable(request: Request, error: Exception) -> JSONResponse:
+    _log.warning("%s %s: the store does not answer: %s", request.method, request.url.path, error)
+    return problem_response("not-ready", "the store does not answer, or is locked by another writer; try again")
 
 
 def _internal(request: Request, error: Exception) -> JSONResponse:

@@ -44,6 +44,7 @@ class PlanAnswer:
     lower: float
     upper: float
     expected_steps: float | None
+    expected_steps_upper: float | None  # infinite when iteration could not bound them
     initial: NamedState
     initial_memory: int
     trajectory: tuple[tuple[NamedState, int, str | None], ...]  # state, memory before reading it, action
@@ -90,6 +91,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         lower=found.lower,
         upper=found.upper,
         expected_steps=found.expected_steps,
+        expected_steps_upper=found.expected_steps_upper,
         initial=world.decode(initial),
         initial_memory=found.initial_memory,
         trajectory=_steps(world, found.trajectory),

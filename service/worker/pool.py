@@ -29,7 +29,7 @@ class Workers:
         self._planners, self._max_waiting = planners, max_waiting
         self._plan_pool: ProcessPool | None = None
         self._logic_pool: ProcessPool | None = None
-        self._pending = 0
+        self._pending = {"plan": 0, "check": 0}
 
     def start(self, *, warm: bool) -> None:
         """Open the pools; processes start with the first job, or now and with everything loaded when `warm`."""
@@ -53,18 +53,20 @@ class Workers:
             OutOfTimeError: it took longer than `timeout_s` seconds, from its start.
             OverloadedError: too many jobs wait already.
         """
-        return await self._run(self._plan_pool, function, job, timeout_s)
+        return await self._run("plan", self._plan_pool, function, job, timeout_s)
 
     async def check(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:
         """Run `function(job)` in the process for formula checks; raises like `plan`."""
-        return await self._run(self._logic_pool, function, job, timeout_s)
+        return await self._run("check", self._logic_pool, function, job, timeout_s)
 
-    async def _run(self, pool: ProcessPool | None, function: Callable[[A], T], job: A, timeout_s: float) -> T:
+    async def _run(
+        self, queue: str, pool: ProcessPool | None, function: Callable[[A], T], job: A, timeout_s: float
+    ) -> T:
         if pool is None:
             raise RuntimeError("the workers are not started")
-        if self._pending >= self._planners + self._max_waiting:
-            raise OverloadedError(f"{self._pending} requests wait for a worker; try again later")
-        self._pending += 1
+        if self._pending[queue] >= self._planners + self._max_waiting:
+            raise OverloadedError(f"{self._pending[queue]} requests wait for a worker; try again later")
+        self._pending[queue] += 1
         try:
             future: ProcessFuture[T] = pool.schedule(function, args=[job], timeout=timeout_s)
             return await asyncio.wrap_future(future)
@@ -73,4 +75,4 @@ class Workers:
         except ProcessExpired as error:
             raise OverloadedError(f"the worker process died ({error}); it may have run out of memory") from None
         finally:
-            self._pending -= 1
+            self._pending[queue] -= 1

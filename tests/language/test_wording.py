@@ -115,3 +115,15 @@ def test_any_phrases_fill_the_slots(first: str, second: str) -> None:
 def test_any_command_is_read_or_not(text: str) -> None:
     translator = TaughtTranslator.of([("put x in y", parse_query("put(x, y)"))])
     assert len(translator.translate(text)) <= 1
+
+
+def test_many_wordings_do_not_slow_a_command() -> None:
+    slots = [f"t{number}" for number in range(12)]
+    query = ContextualQuery("evil", tuple(slots))
+    hard = [(" ".join([*slots, "end", f"x{number}"]), query) for number in range(500)]
+    translator = TaughtTranslator.of([*hard, ("put x in y", parse_query("put(x, y)"))])
+    started = time.monotonic()
+    assert translator.translate(" ".join(["word"] * 50)) == ()
+    assert str(translator.translate("put the cup in the sink")[0].query) == "put(cup, sink)"
+    translator.translate(" ".join(["word"] * 150 + ["end", *(f"x{number}" for number in range(40))]))
+    assert time.monotonic() - started < 5

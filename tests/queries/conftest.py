@@ -20,6 +20,7 @@ DOMAIN = {
         "at": {"arguments": ["x: robot", "p: place"], "is": "x.at == p", "says": "{x} is at {p}"},
         "lies": {"arguments": ["x: thing | bin", "p: place"], "is": "x.on == p", "says": "{x} lies on {p}"},
         "by": {"arguments": ["x: thing", "b: bin"], "is": "x.on == b.on", "says": "{x} is by {b}"},
+        "about": {"arguments": ["x: thing | color"], "is": "x is thing", "says": "the talk is about {x}"},
         "colored": {"arguments": ["x: thing", "v: color"], "is": "x.color == v", "says": "{x} is {v}"},
     },
     "actions": {"wait": {"outcomes": [{}]}},

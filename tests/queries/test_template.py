@@ -18,11 +18,13 @@ from models.queries import (
 )
 from models.world import (
     Environment,
+    PartOfSpeech,
     TypeMismatchError,
     UnknownObjectError,
     UnknownPropositionError,
     builtin_environments,
     load_environment,
+    resolve,
     toys_spec,
 )
 
@@ -123,3 +125,27 @@ def test_an_object_that_the_values_do_not_settle_is_refused(query: str, error: t
     template = taught(toys, "pickup_colored(cone, red)", "F (holding(cone) & colored(cone, red))")
     with pytest.raises(error, match=said):
         evaluate(template, parse_query(query), toys)
+
+
+def test_what_is_denied_of_an_object_does_not_describe_it() -> None:
+    spec = toys_spec(columns=2, rows=1, toys=[("sphere", "red"), ("cube", "blue"), ("cone", "red")])
+    toys = load_environment(spec)
+    template = taught(toys, "pick_not(cone, blue)", "F (holding(cone) & !colored(cone, blue))")
+    with pytest.raises(AmbiguousGroundingError, match='"toy" fits several'):
+        evaluate(template, parse_query("pick_not(toy, red)"), toys)
+
+
+@pytest.mark.parametrize(
+    ("pos", "ltl"), [("noun", 'F about("thing.orange")'), ("adjective", 'F about("color.orange")')]
+)
+def test_the_part_of_speech_decides_where_the_kinds_do_not(store: Environment, pos: PartOfSpeech, ltl: str) -> None:
+    template = taught(store, "talk(ball)", "F about(ball)")
+    with pytest.raises(AmbiguousGroundingError) as caught:
+        evaluate(template, parse_query("talk(orange)"), store)
+    assert caught.value.choices == ("thing.orange", "color.orange")
+    task = evaluate(template, parse_query("talk(orange)"), store, parts_of_speech=[pos])
+    assert formula_text(task.formula) == ltl
+    assert resolve(parse(ltl), store) == task.formula
+    colored = taught(store, "find(ball, red)", "F colored(ball, red)")
+    task = evaluate(colored, parse_query("find(orange, orange)"), store)
+    assert formula_text(task.formula) == "F colored(orange, orange)"

@@ -32,7 +32,10 @@ def snapshot(client: httpx.Client) -> Snapshot:
     """Everything that requests can store by name, to compare before and after."""
 
     def take() -> dict[str, Any]:
-        return {path: client.get(path, params={"limit": 200}).json() for path in ("/templates", "/environments")}
+        return {
+            path: client.get(path, params={"limit": 200}).json()
+            for path in ("/templates", "/environments", "/policies")
+        }
 
     return take
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 import threading
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 
 from benchmarks.server import address, serving, started
 from models.world import toys_spec
-from tests.service.conftest import run_cli
+from tests.service.conftest import check_problem, run_cli
 
 
 def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
@@ -80,3 +81,14 @@ def test_a_wrong_setting_is_named(tmp_path: Path, setting: tuple[str, str]) -> N
     assert result.returncode == 2
     assert result.stderr.startswith(setting[0])
     assert not list(tmp_path.iterdir())
+
+
+def test_a_locked_store_is_not_ready_and_not_broken(tmp_path: Path) -> None:
+    with serving(tmp_path) as client:
+        lock = sqlite3.connect(tmp_path / "cqltl.sqlite3", isolation_level=None)
+        lock.execute("BEGIN IMMEDIATE")
+        lesson = {"contextual_query": "hold(sphere)", "ltl": "F holding(sphere)", "environment": "toys"}
+        check_problem(client.post("/learn", json=lesson), "not-ready", 503)
+        lock.execute("ROLLBACK")
+        lock.close()
+        assert client.post("/learn", json=lesson).status_code == 201

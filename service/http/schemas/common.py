@@ -25,7 +25,7 @@ TranslatorName = Annotated[
 class Request(BaseModel):
     """A request body; unknown members are refused."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", strict=True)
 
 
 class ContextualQueryOut(BaseModel):

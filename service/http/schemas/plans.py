@@ -102,7 +102,12 @@ class PlanResponse(BaseModel):
     warnings: list[str] = Field(description="What to know of the template that the formula came from.")
     environment: str
     probability: Bounds = Field(description="Maximal probability of satisfying the formula.")
-    expected_steps: float | None = Field(description="Minimal expected steps until the outcome is decided.")
+    expected_steps: float | None = Field(
+        description="Minimal expected steps until the outcome is decided; a lower bound, see `expected_steps_upper`."
+    )
+    expected_steps_upper: float | None = Field(
+        description="The minimal expected steps are no more than this; null where no bound was found in time."
+    )
     initial: Situation
     trajectory: list[TrajectoryStep] = Field(
         description="Of the runs in which the policy satisfies the formula, the most probable one."

@@ -361,3 +361,72 @@ def test_a_misspelt_name_is_suggested(client: httpx.Client) -> None:
 def test_a_text_of_a_batch_is_named(client: httpx.Client) -> None:
     body = {"texts": ["Pickup the sphere", "go " * 600]}
     check_problem(client.post("/translate/batch", json=body), "text-too-long", 422, ["/texts/1"])
+
+
+@pytest.mark.parametrize("text", ["never pick up the sphere", "don't pick up the sphere", "Do not go to the kitchen"])
+def test_a_command_turned_round_is_not_obeyed(client: httpx.Client, text: str) -> None:
+    assert client.post("/translate", json={"text": text, "environment": "toys"}).json()["outcome"] == "unknown"
+    check_problem(client.post("/plan", json={"text": text, "environment": "toys"}), "not-understood", 422, ["/text"])
+
+
+def test_a_task_that_is_not_stored_is_unknown(client: httpx.Client) -> None:
+    move_to = client.get("/templates/move_to").json()
+    assert client.delete("/templates/move_to").status_code == 204
+    answer = client.post("/translate", json={"text": "Move to the sphere", "environment": "toys"}).json()
+    assert (answer["outcome"], answer["contextual_query"]) == ("unknown", None)
+    pair = {name: move_to["pairs"][0][name] for name in ("contextual_query", "ltl", "environment")}
+    assert client.post("/learn", json=pair).status_code == 201
+    again = client.post("/translate", json={"text": "Move to the sphere", "environment": "toys"}).json()
+    assert again["contextual_query"]["text"] == "move_to(sphere)"
+
+
+def test_utterances_beyond_the_limit_are_refused(client: httpx.Client, snapshot: Snapshot) -> None:
+    texts = [f"perform act {number} on the sphere" for number in range(101)]
+    assert learn(client, "act(sphere)", "F holding(sphere)", *texts[:50]).status_code == 201
+    assert learn(client, "act(sphere)", "F holding(sphere)", *texts[50:100]).status_code == 200
+    before = snapshot()
+    check_problem(learn(client, "act(sphere)", "F holding(sphere)", texts[100]), "too-many-examples", 422)
+    assert snapshot() == before
+
+
+def test_a_template_too_hard_to_review_is_learned_with_a_word_of_warning(client: httpx.Client) -> None:
+    toys = ("cylinder", "sphere", "orange", "bag")
+    rooms = ("kitchen", "bedroom", "living_room", "bathroom")
+    ltl = " & ".join(f"F at({toy}, {room})" for toy in toys for room in rooms[:3])
+    answer = learn(client, "everywhere(cylinder)", ltl)
+    assert answer.status_code == 201, answer.text
+    assert any("was not checked" in warning for warning in answer.json()["warnings"])
+
+
+@pytest.mark.parametrize("change", [{"candidates": "3"}, {"candidates": True}, {"candidates": 2.5}])
+def test_numbers_are_numbers(client: httpx.Client, change: dict[str, Any]) -> None:
+    body = {"text": SHIP, "environment": "toys", **change}
+    check_problem(client.post("/translate", json=body), "validation", 422, ["/candidates"])
+
+
+def test_the_part_of_speech_in_the_sentence_decides_between_homonyms(client: httpx.Client) -> None:
+    domain = {
+        "name": "talks",
+        "attributes": {"color": ["orange", "red"], "power": ["up", "down"]},
+        "classes": {"robot": {"state": {"on": "power"}}, "thing": {}},
+        "constants": {"robot": "robot"},
+        "functions": {"about": {"arguments": ["x: thing | color"], "is": "x is thing", "says": "it is about {x}"}},
+        "actions": {"wait": {"outcomes": [{}]}},
+    }
+    spec = {
+        "name": "talks",
+        "kind": "oomdp",
+        "domain_spec": domain,
+        "objects": {"orange": {"class": "thing"}, "ball": {"class": "thing"}},
+        "state": {"robot": {"on": "up"}},
+    }
+    assert client.post("/environments", json=spec).status_code == 201
+    lesson = learn(client, "talk(ball)", "F about(ball)", "talk to me about the ball", environment="talks")
+    assert lesson.status_code == 201, lesson.text
+    body = {"text": "talk to me about the orange", "environment": "talks"}
+    answer = client.post("/translate", json=body).json()
+    assert answer["ltl"] == 'F about("thing.orange")'
+    assert client.post("/plan", json=body).json()["outcome"] == "solved"
+    asked = client.post("/ground", json={"contextual_query": "talk(orange)", "environment": "talks"})
+    problem = check_problem(asked, "ambiguous-grounding", 422, ["/contextual_query/arguments/0"])
+    assert problem["choices"] == ["thing.orange", "color.orange"]
