@@ -69,3 +69,9 @@ def run_cli(*arguments: str, data: Path, **environment: str) -> subprocess.Compl
         timeout=120,
         check=False,
     )
+
+
+def learn(client: httpx.Client, query: str, ltl: str, *examples: str, environment: str = "toys") -> httpx.Response:
+    """Teach a task by one pair, with utterances."""
+    body = {"contextual_query": query, "ltl": ltl, "environment": environment, "examples": list(examples)}
+    return client.post("/learn", json=body)
