@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, Query, Request
 
 from service.http.problems import MEDIA_TYPE, STATUS, Problem
 from service.services import Services
+
+T = TypeVar("T")
 
 
 def _services(request: Request) -> Services:
@@ -19,6 +22,11 @@ ServicesDep = Annotated[Services, Depends(_services)]
 
 Cursor = Annotated[str, Query(max_length=200, description="`next` of the page before; empty for the first.")]
 Limit = Annotated[int, Query(ge=1, le=200, description="Most items of the page.")]
+
+
+def page_of(found: Sequence[T], limit: int, key: Callable[[T], str]) -> tuple[Sequence[T], str | None]:
+    """A page and the cursor of the next one, from up to `limit + 1` rows in the order of their keys."""
+    return found[:limit], key(found[limit - 1]) if len(found) > limit else None
 
 
 def refusals(*slugs: str) -> dict[int | str, dict[str, Any]]:

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Response
 
 from models.errors import Place
 from models.world import EnvironmentSpec, WorldError, load_environment
-from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, refusals
+from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.schemas import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.views import environment_data, location
 from service.store import StoredEnvironment
@@ -21,10 +21,9 @@ def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 
     """List the stored environments in order of name."""
     with services.store.read() as transaction:
         found = transaction.environments.page(after=cursor, limit=limit + 1)
-    return EnvironmentList(
-        items=[EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in found[:limit]],
-        next=found[limit - 1].name if len(found) > limit else None,
-    )
+    page, cursor_after = page_of(found, limit, lambda stored: stored.name)
+    items = [EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in page]
+    return EnvironmentList(items=items, next=cursor_after)
 
 
 @router.post(

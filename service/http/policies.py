@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Header, Query, Response
 
 from models.planning import to_json
-from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, refusals
+from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.schemas import PolicyList, PolicyOut, PolicyRow, StepRequest, StepResponse
 from service.places import at
 
@@ -22,10 +22,9 @@ def get_policies(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) 
     """List the stored policies in order of id."""
     with services.store.read() as transaction:
         found = transaction.policies.page(after=cursor, limit=limit + 1)
-    return PolicyList(
-        items=[PolicyRow(id=p.id, environment=p.environment, ltl=p.ltl) for p in found[:limit]],
-        next=found[limit - 1].id if len(found) > limit else None,
-    )
+    page, cursor_after = page_of(found, limit, lambda entry: entry.id)
+    items = [PolicyRow(id=entry.id, environment=entry.environment, ltl=entry.ltl) for entry in page]
+    return PolicyList(items=items, next=cursor_after)
 
 
 @router.delete(

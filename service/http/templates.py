@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from service.http.dependencies import Cursor, Limit, ServicesDep, refusals
+from service.http.dependencies import Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.schemas import TemplateList, TemplateOut
 from service.http.views import template_out
 
@@ -16,10 +16,8 @@ def get_templates(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50)
     """List the learned templates in order of task."""
     with services.store.read() as transaction:
         found = transaction.templates.page(after=cursor, limit=limit + 1)
-    return TemplateList(
-        items=[template_out(stored) for stored in found[:limit]],
-        next=found[limit - 1].task if len(found) > limit else None,
-    )
+    page, cursor_after = page_of(found, limit, lambda stored: stored.task)
+    return TemplateList(items=[template_out(stored) for stored in page], next=cursor_after)
 
 
 @router.get("/{task}", operation_id="getTemplate", responses=refusals("unknown-template"))
