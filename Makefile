@@ -33,6 +33,8 @@ evaluate: $(VENV)/.dev
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.table2
+	$(BIN)/python -m benchmarks.translate
+	$(BIN)/python -m benchmarks.startup
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)

@@ -38,6 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
     translate.add_argument("--environment", help="name of a stored environment; without it there is no LTL")
+    _translator(translate)
     translate.add_argument("--candidates", type=int, default=1, help="how many readings to print")
 
     learn = _remote(commands.add_parser("learn", help="learn a task class from a contextual query and its LTL"))
@@ -52,6 +53,7 @@ def _parser() -> argparse.ArgumentParser:
     what.add_argument("text", nargs="?")
     what.add_argument("--contextual-query")
     what.add_argument("--ltl")
+    _translator(plan)
     where = plan.add_mutually_exclusive_group(required=True)
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
@@ -60,6 +62,10 @@ def _parser() -> argparse.ArgumentParser:
     document.add_argument("--output", type=Path, help="write it to this file")
     document.add_argument("--check", type=Path, help="fail when this file differs from it")
     return parser
+
+
+def _translator(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--translator", help="default, cq-copynet, cq-copynet-pos or ltl-copynet")
 
 
 def _port(text: str) -> int:
@@ -75,6 +81,9 @@ def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 
 def _serve(settings: Settings, options: argparse.Namespace) -> int:
+    from service.forkserver import launch
+
+    launch()  # before this process loads what it needs itself, so that both load at once
     from service.server import CannotListenError, serve
 
     port = settings.port if options.port is None else options.port

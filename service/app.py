@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
+from importlib import import_module
 from importlib.metadata import version
 from typing import TypedDict
 
-import torch
 from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 from starlette.middleware.gzip import GZipMiddleware
 
-from models.language import CopyNetTranslator
+from models.language import part_of_speech
+from models.world import load_environment, toys_spec
 from service.http import environments, health, language, plans, policies, templates
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
@@ -24,6 +26,8 @@ from service.services import Services
 from service.settings import Settings
 from service.store import Store
 from service.store.migrate import migrate
+from service.translators import DEFAULT, Translators
+from service.understanding import understand
 from service.worker import Workers
 
 
@@ -58,19 +62,34 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
 
 @asynccontextmanager
 async def _lifespan(settings: Settings, warm: bool, _app: FastAPI) -> AsyncIterator[State]:
-    torch.set_num_threads(1)  # the network is small: a second thread makes a translation slower
     workers = Workers(planners=settings.workers, max_waiting=settings.max_waiting)
-    await run_sync(partial(workers.start, warm=warm))
+    translators = Translators.shipped()
     store = None
+    tasks = [asyncio.create_task(run_sync(partial(workers.start, warm=warm)))]  # they load in processes of their own
     try:
         await run_sync(migrate, settings.url)
+        await run_sync(translators.queries, DEFAULT)
+        await tasks[0]
         store = Store(settings.url)
-        network = await run_sync(CopyNetTranslator.load)
-        translators = {"default": network, "cq-copynet": network}
         services = Services(settings=settings, store=store, workers=workers, translators=translators)
         await seed(services)
+        if warm:
+            await run_sync(_warm, services)
+            tasks.append(asyncio.create_task(run_sync(_load_the_rest)))
         yield {"services": services}
     finally:
+        await asyncio.wait(tasks)
         await run_sync(workers.stop)
         if store is not None:
             store.close()
+
+
+def _warm(services: Services) -> None:
+    """Translate once, so that the first request does not wait for grammars to be compiled."""
+    understand(services, "pick up the sphere", load_environment(toys_spec()), translator=DEFAULT, candidates=1)
+
+
+def _load_the_rest() -> None:
+    """Load what few requests need and takes a second: parts of speech, and policies to act by."""
+    part_of_speech("pick up the orange", "orange")
+    import_module("models.planning")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TypeVar
 
 from anyio.to_thread import run_sync
@@ -37,10 +38,11 @@ class Lesson:
     replace: bool = False
 
 
+@lru_cache(maxsize=1_024)
 def read_template(stored: StoredTemplate) -> Template:
     """The template value of a stored one."""
-    kinds = tuple(frozenset(kinds) for kinds in stored.kinds)
-    return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds)
+    kinds, taught = (tuple(map(frozenset, group)) for group in (stored.kinds, stored.taught))
+    return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds, taught)
 
 
 async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemplate, bool]:
@@ -101,6 +103,7 @@ def _keep(
         template=formula_text(template.formula),
         lifted=formula_text(template.lifted),
         kinds=tuple(tuple(sorted(kinds)) for kinds in template.kinds),
+        taught=tuple(tuple(sorted(kinds)) for kinds in template.taught),
         pairs=tuple(dict.fromkeys(pairs)),
         examples=tuple(StoredExample(text, lesson.query) for text in dict.fromkeys(lesson.examples)),
         warnings=warnings,
@@ -136,9 +139,17 @@ def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
     """The known template with what the new lesson adds to its pairs and utterances."""
     pairs = _within(dict.fromkeys(known.pairs + new.pairs))
     examples = _within(dict.fromkeys(known.examples + new.examples))
-    if (pairs, examples) == (known.pairs, known.examples):
+    taught = _both(known.taught, new.taught)
+    if (pairs, examples, taught) == (known.pairs, known.examples, known.taught):
         return known
-    return replace(known, pairs=pairs, examples=examples, revision=known.revision + 1)
+    return replace(known, pairs=pairs, examples=examples, taught=taught, revision=known.revision + 1)
+
+
+def _both(known: tuple[tuple[str, ...], ...], new: tuple[tuple[str, ...], ...]) -> tuple[tuple[str, ...], ...]:
+    """The kinds of either, per argument."""
+    if not known:
+        return new
+    return tuple(tuple(sorted({*one, *other})) for one, other in zip(known, new, strict=True))
 
 
 def _within(kept: Iterable[T]) -> tuple[T, ...]:

@@ -2,32 +2,54 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from importlib.resources import files
 from typing import Any
 
 import yaml
 
+from models.errors import CqltlError
+from models.queries import parse_query
 from models.world import builtin_environments
 from service.lessons import Lesson, learn_template
 from service.services import Services
 
 FACT = "seeded"
 """Noted when seeding is complete, so that what a user deletes stays deleted."""
+TAUGHT = "seeds know what they were taught with"
+"""Noted when the templates have the kinds of what they were learned with; stores of before 0.2 have not."""
 
 
 async def seed(services: Services) -> None:
     """Give a new store its built-in data; interrupted, it is taken up again at the next start."""
     with services.store.read() as transaction:
-        if transaction.fact(FACT) is not None:
-            return
+        seeded, complete = (transaction.fact(fact) is not None for fact in (FACT, TAUGHT))
+    if seeded:
+        if not complete:
+            await _complete(services)
+        return
     with services.store.write() as transaction:
         for name, data in builtin_environments():
             transaction.environments.put(name, data["kind"], data)
     for pair in _read()["templates"]:
         await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"], replace=True))
     with services.store.write() as transaction:
-        if transaction.fact(FACT) is None:
-            transaction.add_fact(FACT, "1")
+        for fact in (FACT, TAUGHT):
+            if transaction.fact(fact) is None:
+                transaction.add_fact(fact, "1")
+
+
+async def _complete(services: Services) -> None:
+    """Learn the seeds again that are still there, which adds what their templates lack and changes nothing else."""
+    for pair in _read()["templates"]:
+        with services.store.read() as transaction:
+            known = transaction.templates.find(parse_query(pair["contextual_query"]).task)
+        if known is not None:
+            with suppress(CqltlError):  # it was replaced, or its environment was: then it is not the seed any more
+                await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"]))
+    with services.store.write() as transaction:
+        if transaction.fact(TAUGHT) is None:
+            transaction.add_fact(TAUGHT, "1")
 
 
 def _read() -> dict[str, Any]:

@@ -6,17 +6,19 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from sqlalchemy.exc import SQLAlchemyError
 
-from models.language import Translator
-from models.planning import Policy, from_bytes
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.settings import Settings
 from service.store import Store, StoredPolicy
+from service.translators import Translators
 from service.worker import Workers
+
+if TYPE_CHECKING:  # planning loads SciPy, which a server needs only when a robot acts
+    from models.planning import Policy
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,9 +37,7 @@ class LoadedEnvironment:
 class Services:
     """The store, the worker processes and the translators, with small caches of what was read from the store."""
 
-    def __init__(
-        self, *, settings: Settings, store: Store, workers: Workers, translators: Mapping[str, Translator]
-    ) -> None:
+    def __init__(self, *, settings: Settings, store: Store, workers: Workers, translators: Translators) -> None:
         self.settings = settings
         self.store = store
         self.workers = workers
@@ -48,8 +48,8 @@ class Services:
     def environment(self, name: str) -> LoadedEnvironment:
         """The stored environment of that name; raises `UnknownEnvironmentError`."""
         with self.store.read() as transaction:
-            stored = transaction.environments.get(name)
-        return self._parsed(json.dumps(stored.data))
+            text = transaction.environments.text(name)
+        return self._parsed(text)
 
     def policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
         """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""
@@ -69,6 +69,8 @@ class Services:
             raise NotReadyError(f"the store does not answer ({type(error).__name__})") from error
 
     def _read_policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
+        from models.planning import from_bytes
+
         with self.store.read() as transaction:
             stored = transaction.policies.get(policy_id)
         return stored, from_bytes(stored.data)

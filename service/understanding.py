@@ -1,45 +1,131 @@
-"""From a command to readings: taught wordings first, then the network."""
+"""From a command to what it may mean: taught wordings first, then the translator."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from models.language import BEAM_WIDTH, TaughtTranslator, Translation
-from models.queries import ContextualQuery, parse_query
+from models.errors import CqltlError
+from models.language import BEAM_WIDTH, TaughtTranslator
+from models.language.reading import (
+    AMBIGUOUS,
+    GROUNDED,
+    SENSELESS,
+    FormulaReading,
+    Reading,
+    rank,
+    rank_formulas,
+    read,
+)
+from models.logic import Formula
+from models.queries import Binding, ContextualQuery, GroundedTask, Template, parse_query
+from models.world import Environment
+from service.lessons import read_template
 from service.services import Services
-from service.store import StoredExample
+from service.store import StoredExample, StoredTemplate
+from service.translators import DEFAULT
 
-Fits = Callable[[ContextualQuery], bool]
-"""Whether a query makes sense where the command was given."""
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """A formula; and unless it was said as a formula, the query, what its arguments were bound to, and the warnings of
+    the template.
+    """
+
+    formula: Formula
+    query: ContextualQuery | None = None
+    bindings: tuple[Binding, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, task: GroundedTask, stored: StoredTemplate) -> Meaning:
+        """The meaning of a query that was put into its template."""
+        return cls(task.formula, task.query, task.bindings, stored.warnings)
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """One way to understand a command: its query if the translator gives one, what it means, or why it means nothing.
+
+    Without an environment a query has no meaning yet, and a formula is as the translator gave it.
+    """
+
+    query: ContextualQuery | None
+    confidence: float
+    meaning: Meaning | None
+    refusal: CqltlError | None
 
 
 def understand(
-    services: Services, text: str, *, translator: str, candidates: int, fits: Fits
-) -> tuple[Translation, ...]:
-    """Up to `candidates` readings, best first; none when no task fits.
+    services: Services, text: str, environment: Environment | None, *, translator: str, candidates: int
+) -> tuple[Understanding, ...]:
+    """Up to `candidates` ways to understand a command, best first; none when no task fits.
 
-    `default` asks the wordings that were taught with `/learn` before the network, so a taught command is understood at
-    once, in every process that shares the store. Taught readings that do not fit give way to readings that do:
-    "go to the sphere", taught for picking up, does not keep "go to the kitchen" from being understood.
+    In an environment, what makes sense there comes first; `models.language.reading` says how. `default` asks the
+    wordings that were taught with `/learn` before its network, so a taught command is understood at once, in every
+    process that shares the store. Taught readings that make no sense give way to readings that do: "go to the sphere",
+    taught for picking up, does not keep "go to the kitchen" from being understood.
+
+    Raises:
+        TextTooLongError: the text is beyond the limits of a command.
     """
-    learned = services.translators[translator].translate(text, candidates=candidates)
-    if translator != "default":
-        return learned
-    taught = _taught(services).translate(text, candidates=BEAM_WIDTH)
-    fitting = [translation for translation in taught if fits(translation.query)]
-    if not fitting and learned and fits(learned[0].query):
-        return learned
+    wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
+    if services.translators.gives_formulas(translator):
+        said = services.translators.formulas(translator).translate(text, candidates=wanted)
+        formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
+        return tuple(map(_of_formula, formulas[:candidates]))
+    learned = services.translators.queries(translator).translate(text, candidates=wanted)
+    taught = _taught(services).translate(text, candidates=BEAM_WIDTH) if translator == DEFAULT else ()
+    templates = _templates(services, {found.query.task for found in (*learned, *taught)})
+
+    def template_of(task: str) -> Template | None:
+        return read_template(templates[task]) if task in templates else None
+
+    readings = _merged(
+        read(text, taught, template_of=template_of, environment=environment),
+        rank(text, learned, template_of=template_of, environment=environment),
+    )
+    return tuple(_of_reading(reading, templates[reading.query.task]) for reading in readings[:candidates])
+
+
+def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
+    """The taught readings that make sense, then the others; just the learned ones where only those do.
+
+    A taught reading that takes a word for misspelt makes less sense than a learned one that takes all as said.
+    """
+    best = learned[0].weight if learned else SENSELESS
+    least = AMBIGUOUS if best == GROUNDED else SENSELESS
+    fitting = [reading for reading in taught if reading.weight >= least and reading.weight > SENSELESS]
+    if not fitting and best > SENSELESS:
+        return tuple(learned)
     first = _shared(fitting or taught)
-    known = {translation.query for translation in first}
-    rest = [Translation(t.query, 0.0 if first else t.confidence) for t in learned if t.query not in known]
-    return (*first, *rest)[:candidates]
+    known = {reading.query for reading in first}
+    rest = [replace(r, confidence=0.0) if first else r for r in learned if r.query not in known]
+    return (*first, *rest)
 
 
-def _shared(readings: Sequence[Translation]) -> list[Translation]:
+def _shared(readings: Sequence[Reading]) -> list[Reading]:
     """The readings with confidences that add up to 1; those of no confidence share it when nothing else is left."""
     total = sum(reading.confidence for reading in readings)
-    return [Translation(r.query, r.confidence / total if total else 1 / len(readings)) for r in readings]
+    return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]
+
+
+def _of_reading(reading: Reading, stored: StoredTemplate) -> Understanding:
+    meaning = None if reading.task is None else Meaning.of(reading.task, stored)
+    return Understanding(reading.query, reading.confidence, meaning, reading.refusal)
+
+
+def _of_formula(reading: FormulaReading) -> Understanding:
+    meaning = Meaning(reading.formula) if reading.refusal is None else None
+    return Understanding(None, reading.confidence, meaning, reading.refusal)
+
+
+def _templates(services: Services, tasks: Collection[str]) -> dict[str, StoredTemplate]:
+    if not tasks:
+        return {}
+    with services.store.read() as transaction:
+        return transaction.templates.among(sorted(tasks))
 
 
 def _taught(services: Services) -> TaughtTranslator:

@@ -1,21 +1,23 @@
-"""English to contextual queries: tokens, datasets, CopyNet, beam search, part-of-speech tags.
+"""English to contextual queries: the default translator, the paper's systems, datasets, training, experiments.
 
-`models.language.dataset` holds the datasets, `python -m models.language.train` makes the weights in `weights/`.
+`python -m models.language.train` makes the weights in `weights/`, `python -m models.language.evaluate` measures them.
+What is only needed for that, and the paper's systems (`models.language.copynet`), is not imported here.
 """
 
 from models.language.errors import TextTooLongError, TrainingError, VocabularyError, WeightsError
+from models.language.spans import SpanTranslator
 from models.language.tagging import part_of_speech
 from models.language.tokens import MAX_CHARACTERS, MAX_WORDS
-from models.language.translator import BEAM_WIDTH, CopyNetTranslator, Translation, Translator
+from models.language.translation import BEAM_WIDTH, Translation, Translator
 from models.language.wording import ExampleArgumentNotFoundError, ExampleTooGeneralError, TaughtTranslator, Wording
 
 __all__ = [
     "BEAM_WIDTH",
     "MAX_CHARACTERS",
     "MAX_WORDS",
-    "CopyNetTranslator",
     "ExampleArgumentNotFoundError",
     "ExampleTooGeneralError",
+    "SpanTranslator",
     "TaughtTranslator",
     "TextTooLongError",
     "TrainingError",

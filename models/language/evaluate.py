@@ -1,57 +1,98 @@
-"""Measure a trained model on the whole of S and U.
+"""The paper's experiments, and those of the default translator.
 
-    python -m models.language.evaluate [--weights FOLDER] [--name NAME] [--json FILE]
+    python -m models.language.evaluate                   everything: trains what is not in the folder of runs
+    python -m models.language.evaluate --only default    the default translator only; the rest of the results stays
+    python -m models.language.evaluate --quick           a few commands and epochs, to see that it works; a minute
+    python -m models.language.evaluate --report          the figures and tables again, from the results that are there
 
-Prints, by task class, how many commands of S and U get exactly the right contextual query from beam search, with the
-least confidence applied, and how many texts that no task fits are refused. One thread, a few minutes.
+Writes `results.json` and the figures into the folder `--output`, the tables into the page `--page`, and prints them.
+Trained runs are kept in the folder `--runs` and not trained again. One thread.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 
 import torch
+from tqdm import tqdm
 
-from models.language import accuracy
-from models.language.accuracy import Tally
-from models.language.dataset import Domain, generate, no_task
-from models.language.translator import CopyNetTranslator
-from models.language.weights import DEFAULT_NAME, Model, load_model
+from models.language.experiments import (
+    DefaultSystem,
+    Runs,
+    Settings,
+    default_part,
+    default_steps,
+    paper_part,
+    paper_steps,
+    read_results,
+    tables,
+    trained_system,
+    write_page,
+    write_results,
+)
+
+PARTS = ("paper", "default")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Read the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="Measure a trained model on S and U.")
-    parser.add_argument("--weights", type=Path, help="folder of the model; the one that is shipped if not given")
-    parser.add_argument("--name", default=DEFAULT_NAME, help="name of its files")
-    parser.add_argument("--json", type=Path, help="write the counts to this file")
-    options = parser.parse_args(arguments)
+    """Read the command line, train and measure, write and print."""
+    options = _read_options(arguments)
     torch.set_num_threads(1)
-    model = load_model(options.weights, name=options.name)
-    domains = [Domain(name) for name in str(model.training["domains"]).split()]
-    table = measure(model, domains)
-    for row, tally in table.items():
-        print(f"{row:32} {tally}")
-    if options.json:
-        options.json.write_text(json.dumps({row: asdict(tally) for row, tally in table.items()}, indent=1) + "\n")
+    settings = Settings(seeds=tuple(options.seeds), most=options.most)
+    if options.quick:
+        settings = settings.quick()
+    results = read_results(options.output)
+    if not options.report:
+        _measure(results, [options.only] if options.only else PARTS, settings, options.runs)
+    results = {part: results[part] for part in PARTS if part in results}
+    written = write_results(results, options.output)
+    if options.page and all(part in results for part in PARTS):
+        write_page(results, options.page)
+        written.append(options.page)
+    for name, table in tables(results).items():
+        print(f"\n{name}\n\n{table}")
+    print("\nwritten:", *written, sep="\n  ")
 
 
-def measure(model: Model, domains: Sequence[Domain]) -> dict[str, Tally]:
-    """The translator's accuracy on S and U by task class, and its refusals of the texts kept from training."""
-    translator = CopyNetTranslator(model.network, model.vocabulary, model.arities, model.min_confidence)
-    table: dict[str, Tally] = {}
-    for domain in domains:
-        for part, examples in (("S", generate(domain).seen), ("U", generate(domain).unseen)):
-            tallies = accuracy.by_task(translator, examples)
-            total = Tally(sum(t.right for t in tallies.values()), sum(t.total for t in tallies.values()))
-            table |= {f"{part} {domain}/{task}": tally for task, tally in tallies.items()}
-            table[f"{part} {domain}"] = total
-    table["no task, held out"] = accuracy.refusals(translator, no_task(seed=int(model.training["seed"])).held_out)
-    return table
+def _measure(results: dict[str, object], parts: Sequence[str], settings: Settings, runs: Path) -> None:
+    """Measure some parts and put them into the results, in place of what they had."""
+    steps = {"paper": paper_steps(settings), "default": default_steps(settings)}
+    with tqdm(total=sum(steps[part] for part in parts), unit="step", dynamic_ncols=True) as bar:
+
+        def done(what: str) -> None:
+            bar.set_postfix_str(what, refresh=False)
+            bar.update()
+
+        def system(seed: int) -> DefaultSystem:
+            return trained_system(seed, settings.spans, runs, done)
+
+        if "paper" in parts:
+            results["paper"] = paper_part(settings, Runs(runs), done)
+        if "default" in parts:
+            results["default"] = default_part(settings, system, done)
+
+
+def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description="The paper's experiments, and those of the default translator.")
+    parser.add_argument("--only", choices=PARTS, help="measure one part; what there is of the other stays")
+    parser.add_argument("--seeds", type=int, nargs="+", default=list(Settings().seeds), help="seeds of training")
+    parser.add_argument("--most", type=int, help="commands of each task class of S and U; all if not given")
+    parser.add_argument("--quick", action="store_true", help="a tiny run to see that everything works")
+    parser.add_argument("--report", action="store_true", help="measure nothing: figures and tables of the results")
+    parser.add_argument("--runs", type=Path, help="folder of trained runs; build/experiments if not given")
+    parser.add_argument("--output", type=Path, help="folder of results and figures; docs/experiments if not given")
+    parser.add_argument("--page", type=Path, help="page with the tables; docs/experiments.md if not given")
+    options = parser.parse_args(arguments)
+    if options.quick:
+        options.runs = options.runs or Path("build/experiments-quick")
+        options.output = options.output or options.runs / "results"
+    else:
+        options.page = options.page or Path("docs/experiments.md")
+    options.runs = options.runs or Path("build/experiments")
+    options.output = options.output or Path("docs/experiments")
+    return options
 
 
 if __name__ == "__main__":

@@ -1,19 +1,30 @@
-"""Part of speech of a phrase, by spaCy's small English model."""
+"""Parts of speech, by spaCy's small English model."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING
 
-from models.language.tokens import find, tokenize, visible, words
+from models.language.tokens import Token, find, tokenize, visible, words
 from models.world import PartOfSpeech
 
 if TYPE_CHECKING:
     from spacy.language import Language
+    from spacy.tokens import Doc
 
 _UNUSED = ("parser", "ner", "lemmatizer", "attribute_ruler")
 _lock = Lock()
 _loaded: list[Language] = []
+
+
+@dataclass(frozen=True, slots=True)
+class TaggedWord:
+    """A folded word of a text; `part` is None when it is neither noun nor adjective."""
+
+    text: str
+    part: PartOfSpeech | None
 
 
 def part_of_speech(text: str, phrase: str) -> PartOfSpeech | None:
@@ -25,16 +36,25 @@ def part_of_speech(text: str, phrase: str) -> PartOfSpeech | None:
     Raises:
         TextTooLongError: the text is beyond the limits of `models.language.tokens`.
     """
-    tokens = tokenize(text)
     wanted = words(phrase)
+    (tokens,) = tagged([text])
     start = find(wanted, [token.text for token in tokens])
-    if start is None:
-        return None
-    last = tokens[start + len(wanted) - 1].end - 1  # the last character of the head
-    for token in _tagger()(visible(text)):
-        if token.idx <= last < token.idx + len(token.text):
-            return _part(token.tag_)
-    return None
+    return None if start is None else tokens[start + len(wanted) - 1].part
+
+
+def tagged(texts: Sequence[str]) -> Iterator[tuple[TaggedWord, ...]]:
+    """The words of each text with their parts of speech; loads the model as `part_of_speech` does, and raises as it."""
+    spoken = [tokenize(text) for text in texts]
+    documents = _tagger().pipe(visible(text) for text in texts)
+    for tokens, document in zip(spoken, documents, strict=True):
+        yield tuple(_tag(tokens, document))
+
+
+def _tag(tokens: Sequence[Token], document: Doc) -> Iterator[TaggedWord]:
+    """A word has the tag of spaCy's token at its last character: spaCy splits some words in two."""
+    by_character = {place: token.tag_ for token in document for place in range(token.idx, token.idx + len(token.text))}
+    for token in tokens:
+        yield TaggedWord(token.text, _part(by_character.get(token.end - 1, "")))
 
 
 def _part(tag: str) -> PartOfSpeech | None:

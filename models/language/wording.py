@@ -12,7 +12,7 @@ from itertools import product
 
 from models.errors import CqltlError, Place
 from models.language.tokens import words
-from models.language.translator import Translation
+from models.language.translation import Translation
 from models.queries import ContextualQuery
 
 MAX_SLOT_WORDS = 6

@@ -20,7 +20,7 @@ from models.queries.errors import (
 from models.queries.learning import Example, learn
 from models.queries.lifting import LiftedFormula, lift, resolve_grounded
 from models.queries.review import review
-from models.queries.template import Binding, GroundedTask, Template, evaluate, parameter_kinds
+from models.queries.template import Binding, GroundedTask, Template, check_arity, evaluate, parameter_kinds
 
 __all__ = [
     "MAX_ARGUMENTS",
@@ -37,6 +37,7 @@ __all__ = [
     "QuerySyntaxError",
     "Template",
     "UnusedParameterError",
+    "check_arity",
     "evaluate",
     "learn",
     "lift",

@@ -63,7 +63,8 @@ def learn(examples: Sequence[Example], environment: Environment) -> Template:
     _require_constant(columns, positions)
     formula = _tie(resolved[0], iter(columns), positions)
     kinds = parameter_kinds(formula, environment, arity)
-    return Template(task, formula, lift(resolved[0], environment).formula, kinds)
+    taught = tuple(frozenset(symbol.kind for symbol in column) for column in mapping)
+    return Template(task, formula, lift(resolved[0], environment).formula, kinds, taught)
 
 
 def _resolve(formula: Formula, index: int, environment: Environment) -> Formula:
@@ -94,7 +95,8 @@ def _feasible(
     for number, example in enumerate(examples):
         phrase = example.query.arguments[index]
         pointer = f"/{number}/query/arguments/{index}"
-        symbols = {candidate.symbol for candidate in ground(phrase, environment).candidates}
+        found = ground(phrase, environment).candidates
+        symbols = {candidate.symbol for candidate in found if candidate.misspelt is None}  # what is taught is exact
         if not symbols:
             detail = nothing_called(phrase, environment)
             raise UnknownObjectError(detail, places=[Place(pointer, detail)])

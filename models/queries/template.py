@@ -42,13 +42,16 @@ Kinds = frozenset[str]
 class Template:
     """Templated LTL of one task class: `F (in($1, $2) & F (in($1, $2) & at($2, $3)))` for `ship`.
 
-    `kinds[i]` are the kinds that argument `i + 1` may have, from the propositional functions it feeds.
+    `kinds[i]` are the kinds that argument `i + 1` may have, from the propositional functions it feeds. `taught[i]` are
+    those of the things it was learned with, which decide when a phrase fits objects of several kinds: who taught
+    `pickup(sphere)` with a toy means the toy by "the bag", and not the box of that name. Empty when not known.
     """
 
     task: str
     formula: Formula
     lifted: Formula
     kinds: tuple[Kinds, ...]
+    taught: tuple[Kinds, ...] = ()
 
     @property
     def arity(self) -> int:
@@ -117,23 +120,36 @@ def evaluate(
         ArityMismatchError: the query has more or fewer arguments than the template.
         UnknownObjectError: a phrase names nothing in the environment.
         TypeMismatchError: a phrase names only things that the place does not take.
-        AmbiguousGroundingError: a phrase fits several things.
+        AmbiguousGroundingError: a phrase fits several things, and all others fit something.
         UnknownPropositionError: the environment lacks a propositional function of the template.
     """
-    if len(query.arguments) != template.arity:
-        detail = f"{query.task} takes {template.arity} arguments, not {len(query.arguments)}"
-        raise ArityMismatchError(detail, places=[Place("", detail)])
+    check_arity(template, query)
     kinds = parameter_kinds(template.formula, environment, template.arity)
     tags = parts_of_speech or [None] * template.arity
     bindings = []
+    doubt: AmbiguousGroundingError | None = None
     for index, phrase in enumerate(query.arguments):
-        words = _describing(template, query, index, kinds, environment)
-        found = _ground_argument(query, index, kinds[index], environment, tags[index], words)
+        taught = template.taught[index] if template.taught else frozenset()
+        said = _describing(template, query, index, kinds, environment)
+        try:
+            found = _ground_argument(query, index, kinds[index], environment, tags[index], said, taught)
+        except AmbiguousGroundingError as error:
+            doubt = doubt or error  # no use in asking which, when another phrase names nothing
+            continue
         bindings.append(Binding(index + 1, phrase, found))
+    if doubt is not None:
+        raise doubt
     terms: dict[Term, Term] = {
         Parameter(b.position): Name(distinct_name(b.candidate.symbol, environment)) for b in bindings
     }
     return GroundedTask(query, resolve(substitute(template.formula, terms), environment), tuple(bindings))
+
+
+def check_arity(template: Template, query: ContextualQuery) -> None:
+    """Raises `ArityMismatchError` unless the query has as many arguments as the template."""
+    if len(query.arguments) != template.arity:
+        detail = f"{query.task} takes {template.arity} arguments, not {len(query.arguments)}"
+        raise ArityMismatchError(detail, places=[Place("", detail)])
 
 
 def nothing_called(phrase: str, environment: Environment, kinds: Kinds | None = None) -> str:
@@ -143,11 +159,19 @@ def nothing_called(phrase: str, environment: Environment, kinds: Kinds | None = 
     return f"{sentence} (did you mean {' or '.join(near)}?)" if near else sentence
 
 
+@dataclass(frozen=True, slots=True)
+class _Description:
+    """An argument with the attribute values that the template says of it in front, and the types of these values."""
+
+    phrase: str
+    types: Kinds
+
+
 def _describing(
     template: Template, query: ContextualQuery, index: int, kinds: Sequence[Kinds], environment: Environment
-) -> str:
-    """The argument with the attribute values that the template says of it in front: "red toy" for `$1` of
-    `colored($1, $2)` in `pickup_colored(toy, red)`; just the argument when there are none.
+) -> _Description:
+    """What the template says of an argument: "red toy" for `$1` of `colored($1, $2)` in `pickup_colored(toy, red)`;
+    just the argument when it says nothing.
     """
     positions = {
         other.position - 1
@@ -156,8 +180,10 @@ def _describing(
         for other in atom.arguments
         if isinstance(other, Parameter) and _are_values(kinds[other.position - 1], environment)
     }
-    values = [query.arguments[position] for position in sorted(positions - {index})]
-    return " ".join([*values, query.arguments[index]])
+    others = sorted(positions - {index})
+    values = [query.arguments[position] for position in others]
+    types = frozenset[str]().union(*(kinds[position] for position in others))
+    return _Description(" ".join([*values, query.arguments[index]]), types)
 
 
 def _demanded(formula: Formula) -> Iterator[Atom]:
@@ -174,7 +200,15 @@ def _demanded(formula: Formula) -> Iterator[Atom]:
 
 
 def _are_values(kinds: Kinds, environment: Environment) -> bool:
-    return bool(kinds) and not any(map(environment.vocabulary.is_object, environment.symbols(*kinds)))
+    return bool(kinds) and kinds.isdisjoint(environment.vocabulary.class_words)
+
+
+def _undescribed(
+    candidates: Sequence[Candidate], said: _Description, environment: Environment
+) -> tuple[Candidate, ...]:
+    """Those of which the environment does not say what they are like, so that a description contradicts nothing."""
+    static = environment.vocabulary.static
+    return tuple(c for c in candidates if said.types.isdisjoint(v.kind for v in static.get(c.symbol, {}).values()))
 
 
 def _ground_argument(
@@ -183,13 +217,16 @@ def _ground_argument(
     kinds: Kinds,
     environment: Environment,
     pos: PartOfSpeech | None,
-    described: str,
+    said: _Description,
+    taught: Kinds,
 ) -> Candidate:
     phrase, pointer = query.arguments[index], f"/arguments/{index}"
     candidates = ground(phrase, environment, kinds=kinds, pos=pos).candidates
-    if len(candidates) != 1 and described != phrase:
-        phrase = described
-        candidates = ground(phrase, environment, kinds=kinds).candidates
+    if len(candidates) != 1 and said.phrase != phrase:
+        phrase = said.phrase
+        candidates = ground(phrase, environment, kinds=kinds).candidates or _undescribed(candidates, said, environment)
+    if len(candidates) > 1 and all(environment.vocabulary.is_object(c.symbol) for c in candidates):
+        candidates = tuple(c for c in candidates if c.symbol.kind in taught) or candidates
     if len(candidates) == 1:
         return candidates[0]
     if candidates:
@@ -200,7 +237,7 @@ def _ground_argument(
         )
     wanted = " or ".join(sorted(kinds))
     elsewhere = ground(phrase, environment).candidates
-    if elsewhere:
+    if elsewhere and elsewhere[0].misspelt is None:
         other = elsewhere[0].symbol
         detail = f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
         raise TypeMismatchError(detail, places=[Place(pointer, detail)])

@@ -24,10 +24,10 @@ def words(text: str) -> tuple[str, ...]:
 
     `"H&M (2nd floor)"` -> `("h", "m", "2nd", "floor")`; `"the_Child's toy"` -> `("the", "childs", "toy")`.
     """
-    plain = (
-        unicodedata.normalize("NFKC", text).casefold().replace("'", "").replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
-    )
-    return tuple(_SPELLINGS.get(word, word) for word in _WORD.findall(plain))
+    if not text.isascii():  # for what is ASCII, this changes nothing
+        text = unicodedata.normalize("NFKC", text).casefold().replace("\N{RIGHT SINGLE QUOTATION MARK}", "")
+    found = _WORD.findall(text.lower().replace("'", ""))
+    return tuple(found if _SPELLINGS.keys().isdisjoint(found) else (_SPELLINGS.get(word, word) for word in found))
 
 
 def clipped(text: str) -> str:

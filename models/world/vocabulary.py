@@ -8,6 +8,7 @@ from functools import cached_property
 
 from models.world.domain import Function
 from models.world.names import words
+from models.world.phrase_index import PhraseIndex
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +29,11 @@ class Vocabulary:
     synonyms: Mapping[Symbol, tuple[str, ...]]
     static: Mapping[Symbol, Mapping[str, Symbol]]  # an object's unchanging attributes; absent where it has none
     class_words: Mapping[str, tuple[str, ...]]
+
+    @cached_property
+    def phrases(self) -> PhraseIndex:
+        """The symbols by what they are called and what can be said of them."""
+        return PhraseIndex(self)
 
     @cached_property
     def _by_name(self) -> dict[str, tuple[Symbol, ...]]:

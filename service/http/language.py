@@ -117,11 +117,11 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
 async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
     """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
     environment, meaning = await run_sync(ground, services, body.contextual_query, body.environment)
-    task = meaning.task
+    assert meaning.query is not None
     return GroundResponse(
-        contextual_query=query_out(task.query),
-        ltl=formula_text(task.formula),
-        explanation=explain(task.formula, environment),
-        bindings=bindings_out(task),
+        contextual_query=query_out(meaning.query),
+        ltl=formula_text(meaning.formula),
+        explanation=explain(meaning.formula, environment),
+        bindings=bindings_out(meaning),
         warnings=list(meaning.warnings),
     )

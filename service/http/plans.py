@@ -20,7 +20,7 @@ from service.http.schemas import (
     Timing,
     TrajectoryStep,
 )
-from service.http.views import environment_data, query_out
+from service.http.views import bindings_out, environment_data, query_out
 from service.pipeline import Planned, PlanOrder, plan
 
 router = APIRouter(tags=["planning"])
@@ -74,7 +74,7 @@ def _finite(number: float | None) -> float | None:
 
 
 def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
-    answer = planned.answer
+    answer, meaning = planned.answer, planned.meaning
     steps = [TrajectoryStep(state=state, memory=memory, action=action) for state, memory, action in answer.trajectory]
     policy = None
     if planned.policy_id is not None:
@@ -83,10 +83,11 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
     return PlanResponse(
         id=planned.policy_id,
         outcome=answer.outcome,
-        contextual_query=None if planned.meaning is None else query_out(planned.meaning.task.query),
-        ltl=formula_text(planned.formula),
-        explanation=explain(planned.formula, planned.environment),
-        warnings=[] if planned.meaning is None else list(planned.meaning.warnings),
+        contextual_query=None if meaning.query is None else query_out(meaning.query),
+        ltl=formula_text(meaning.formula),
+        explanation=explain(meaning.formula, planned.environment),
+        bindings=bindings_out(meaning),
+        warnings=list(meaning.warnings),
         environment=planned.environment.name,
         probability=Bounds(lower=answer.lower, upper=answer.upper),
         expected_steps=answer.expected_steps,

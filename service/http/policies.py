@@ -9,7 +9,6 @@ from typing import Annotated, Literal
 
 from fastapi import APIRouter, Header, Query, Response
 
-from models.planning import to_json
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.schemas import PolicyList, PolicyOut, PolicyRow, StepRequest, StepResponse
 from service.places import at
@@ -51,6 +50,8 @@ def get_policy(
     accept_encoding: Annotated[str, Header(include_in_schema=False)] = "",
 ) -> Response:
     """The whole policy as flat arrays."""
+    from models.planning import to_json
+
     stored, policy = services.policy(policy_id)
     content = {"id": stored.id, "environment": stored.environment, **to_json(policy)}
     # Straight to text: checking millions of numbers against the schema would cost more than all the rest.

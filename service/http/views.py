@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from typing import Any
 from urllib.parse import quote
 
-from models.errors import CqltlError
+from models.errors import Place
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, ContextualQuery, GroundedTask
+from models.queries import AmbiguousGroundingError, ContextualQuery
 from models.world import Environment, EnvironmentSpec, explain
 from service.http.problems import ErrorPlace
 from service.http.schemas import (
@@ -20,8 +21,9 @@ from service.http.schemas import (
     TemplateOut,
     TranslateResponse,
 )
-from service.pipeline import Reading, Translated
+from service.pipeline import Translated
 from service.store import StoredTemplate
+from service.understanding import Meaning, Understanding
 
 
 def environment_data(spec: EnvironmentSpec) -> dict[str, Any]:
@@ -39,8 +41,8 @@ def query_out(query: ContextualQuery) -> ContextualQueryOut:
     return ContextualQueryOut(text=str(query), task=query.task, arguments=list(query.arguments))
 
 
-def bindings_out(task: GroundedTask) -> list[BindingOut]:
-    """The bindings of a grounded task."""
+def bindings_out(meaning: Meaning) -> list[BindingOut]:
+    """The bindings of a meaning that comes from a contextual query; none of a formula."""
     return [
         BindingOut(
             argument=binding.position,
@@ -49,7 +51,7 @@ def bindings_out(task: GroundedTask) -> list[BindingOut]:
             kind=binding.candidate.symbol.kind,
             reason=binding.candidate.reason,
         )
-        for binding in task.bindings
+        for binding in meaning.bindings
     ]
 
 
@@ -59,8 +61,8 @@ def template_out(stored: StoredTemplate) -> TemplateOut:
         task=stored.task,
         arity=stored.arity,
         parameters=[
-            ParameterOut(position=position, type=" | ".join(kinds))
-            for position, kinds in enumerate(stored.kinds, start=1)
+            ParameterOut(position=position, type=" | ".join(kinds), taught=" | ".join(taught))
+            for position, (kinds, taught) in enumerate(zip_longest(stored.kinds, stored.taught, fillvalue=()), start=1)
         ],
         template=stored.template,
         lifted=stored.lifted,
@@ -92,22 +94,25 @@ def translated_out(translated: Translated) -> TranslateResponse:
     )
 
 
-def _candidate(reading: Reading, environment: Environment | None) -> CandidateOut:
-    task = None if reading.meaning is None else reading.meaning.task
+def _candidate(reading: Understanding, environment: Environment | None) -> CandidateOut:
+    meaning = reading.meaning
     return CandidateOut(
-        contextual_query=query_out(reading.query),
-        ltl=None if task is None else formula_text(task.formula),
-        confidence=round(reading.confidence, 6),
-        explanation=None if task is None else explain(task.formula, environment),
-        bindings=[] if task is None else bindings_out(task),
-        warnings=[] if reading.meaning is None else list(reading.meaning.warnings),
-        issues=[] if reading.refusal is None else _issues(reading.refusal),
+        contextual_query=None if reading.query is None else query_out(reading.query),
+        ltl=None if meaning is None else formula_text(meaning.formula),
+        confidence=round(reading.confidence, 4),  # what float32 gives alike on every machine
+        explanation=None if meaning is None or environment is None else explain(meaning.formula, environment),
+        bindings=[] if meaning is None else bindings_out(meaning),
+        warnings=[] if meaning is None else list(meaning.warnings),
+        issues=_issues(reading),
     )
 
 
-def _issues(refusal: CqltlError) -> list[ErrorPlace]:
-    places = [ErrorPlace(pointer=f"/contextual_query{p.pointer}", detail=p.detail) for p in refusal.places]
-    return places or [ErrorPlace(pointer="/contextual_query", detail=refusal.detail)]
+def _issues(reading: Understanding) -> list[ErrorPlace]:
+    if reading.refusal is None:
+        return []
+    pointer = "/ltl" if reading.query is None else "/contextual_query"
+    places = reading.refusal.places or (Place("", reading.refusal.detail),)
+    return [ErrorPlace(pointer=pointer + place.pointer, detail=place.detail) for place in places]
 
 
 def _question(translated: Translated) -> QuestionOut | None:

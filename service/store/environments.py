@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, delete, insert, select, update
+from sqlalchemy import Connection, Text, cast, delete, insert, select, update
 
 from models.errors import Place
 from service.errors import EnvironmentExistsError, UnknownEnvironmentError
@@ -33,8 +33,15 @@ class EnvironmentRepository:
         """The environment; raises `UnknownEnvironmentError`."""
         row = self._connection.execute(select(environments).where(environments.c.name == name)).first()
         if row is None:
-            raise UnknownEnvironmentError(f'no environment is called "{name[:100]}"')
+            raise _unknown(name)
         return StoredEnvironment(row.name, row.kind, row.data, row.revision)
+
+    def text(self, name: str) -> str:
+        """The data of the environment as JSON text; raises `UnknownEnvironmentError`."""
+        found = self._connection.scalar(select(cast(environments.c.data, Text)).where(environments.c.name == name))
+        if found is None:
+            raise _unknown(name)
+        return str(found)
 
     def page(self, *, after: str = "", limit: int) -> list[StoredEnvironment]:
         """Up to `limit` environments in order of name, from the first whose name is greater than `after`."""
@@ -67,3 +74,7 @@ class EnvironmentRepository:
         """Remove the environment; raises `UnknownEnvironmentError`."""
         self.get(name)
         self._connection.execute(delete(environments).where(environments.c.name == name))
+
+
+def _unknown(name: str) -> UnknownEnvironmentError:
+    return UnknownEnvironmentError(f'no environment is called "{name[:100]}"')

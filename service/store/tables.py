@@ -24,6 +24,7 @@ templates = Table(
     Column("template", Text, nullable=False),
     Column("lifted", Text, nullable=False),
     Column("kinds", JSON, nullable=False),  # one sorted list of kinds per argument
+    Column("taught", JSON, nullable=False),  # likewise, of the things it was learned with; [] when not known
     Column("pairs", JSON, nullable=False),  # what it was learned from
     Column("examples", JSON, nullable=False),  # utterances of the task with their queries
     Column("warnings", JSON, nullable=False),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -30,12 +31,15 @@ class StoredExample:
 
 @dataclass(frozen=True, slots=True)
 class StoredTemplate:
-    """The template of one task. `kinds` holds a sorted tuple of kinds per argument."""
+    """The template of one task. `kinds` and `taught` hold a sorted tuple of kinds per argument; `taught` is empty when
+    it is not known.
+    """
 
     task: str
     template: str
     lifted: str
     kinds: tuple[tuple[str, ...], ...]
+    taught: tuple[tuple[str, ...], ...]
     pairs: tuple[StoredPair, ...]
     examples: tuple[StoredExample, ...]
     warnings: tuple[str, ...]
@@ -57,6 +61,11 @@ class TemplateRepository:
         """The template of the task, or None."""
         row = self._connection.execute(select(templates).where(templates.c.task == task)).first()
         return None if row is None else _read(row)
+
+    def among(self, tasks: Collection[str]) -> dict[str, StoredTemplate]:
+        """The templates of those of the tasks that have one, by task."""
+        rows = self._connection.execute(select(templates).where(templates.c.task.in_(tasks)))
+        return {row.task: _read(row) for row in rows}
 
     def get(self, task: str) -> StoredTemplate:
         """The template of the task; raises `UnknownTemplateError`."""
@@ -97,6 +106,7 @@ def _read(row: Row[Any]) -> StoredTemplate:
         template=row.template,
         lifted=row.lifted,
         kinds=tuple(tuple(kinds) for kinds in row.kinds),
+        taught=tuple(tuple(kinds) for kinds in row.taught),
         pairs=tuple(StoredPair(**pair) for pair in row.pairs),
         examples=tuple(StoredExample(**example) for example in row.examples),
         warnings=tuple(row.warnings),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-import multiprocessing
 from collections.abc import Callable
 from typing import TypeVar
 
 from pebble import ProcessExpired, ProcessFuture, ProcessPool
 
 from service.errors import OutOfTimeError, OverloadedError
+from service.forkserver import context
 from service.worker.jobs import warm_logic, warm_planning
 
 T = TypeVar("T")
@@ -23,9 +23,7 @@ class Workers:
     """
 
     def __init__(self, *, planners: int, max_waiting: int) -> None:
-        self._context = multiprocessing.get_context("forkserver")
-        # Imported once, in the process that the others are forked from: starting one then takes milliseconds.
-        self._context.set_forkserver_preload(["service.worker.jobs", "models.planning"])
+        self._context = context()
         self._planners, self._max_waiting = planners, max_waiting
         self._plan_pool: ProcessPool | None = None
         self._logic_pool: ProcessPool | None = None

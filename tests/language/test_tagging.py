@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from models.language import TextTooLongError, part_of_speech
+from models.language.tagging import TaggedWord, tagged
 
 
 @pytest.mark.parametrize(
@@ -30,3 +31,22 @@ def test_part_of_speech(text: str, phrase: str, expected: str | None) -> None:
 def test_too_long() -> None:
     with pytest.raises(TextTooLongError):
         part_of_speech("ball " * 1_000, "ball")
+
+
+def test_tagged_words() -> None:
+    """The words are those of the tokeniser, also where spaCy splits them in two; texts keep their order."""
+    first, empty, second = tagged(["Fetch the green cube!", "", "I can't go to Paris"])
+    assert first == (
+        TaggedWord("fetch", None),
+        TaggedWord("the", None),
+        TaggedWord("green", "adjective"),
+        TaggedWord("cube", "noun"),
+    )
+    assert empty == ()
+    assert [word.text for word in second] == ["i", "can't", "go", "to", "paris"]
+    assert [word.part for word in second] == [None, None, None, None, "noun"]
+
+
+def test_too_long_among_others() -> None:
+    with pytest.raises(TextTooLongError):
+        list(tagged(["go", "ball " * 1_000]))

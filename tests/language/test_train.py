@@ -1,97 +1,73 @@
-"""Training: it learns, it is deterministic, and the script writes what it says."""
+"""The training command: it writes what it says, the same for the same seed, and what it wrote can be asked."""
 
 from __future__ import annotations
 
 import json
-import random
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import torch
 
-from models.language import CopyNetTranslator, TrainingError, train
-from models.language.accuracy import by_task, greedy
-from models.language.copynet import loss
-from models.language.dataset import Domain, Example, NoTask, Split, generate, no_task, split
-from models.language.items import command, to_batch, vocabulary_of
-from models.language.train import Settings
-from models.language.weights import build_network
+from models.language import SpanTranslator, TrainingError, train
+from models.language.copynet import CqCopyNetTranslator
+from models.language.spans import training
 
 
 @pytest.fixture(autouse=True)
 def _one_thread() -> Iterator[None]:
     threads = torch.get_num_threads()
-    torch.set_num_threads(1)
     yield
     torch.set_num_threads(threads)
 
 
-def test_twenty_examples_are_learnt_by_heart() -> None:
-    torch.manual_seed(0)
-    examples = random.Random(0).sample(generate("manipulation").seen, 20)
-    items = [command(example) for example in examples]
-    vocabulary = vocabulary_of(items)
-    network = build_network(vocabulary, embedding=24, encoder=24, decoder=32, dropout=0.0)
-    source, target = to_batch(items, [()] * len(items), vocabulary)
-    optimizer = torch.optim.Adam(network.parameters(), lr=0.01)
-    for _ in range(120):
-        value = loss(network(source, target), source, target)
-        optimizer.zero_grad()
-        value.backward()
-        optimizer.step()
-    assert greedy(network, vocabulary, items) == (pytest.approx(0.0, abs=0.05), 1.0)
-    arities = {example.task: len(example.query.arguments) for example in examples}
-    translator = CopyNetTranslator(network.eval(), vocabulary, arities, 0.0)
-    assert all(tally.rate == 1.0 for tally in by_task(translator, examples).values())
-
-
 @pytest.fixture
-def _small_data(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A twentieth of the data, so that a whole run takes seconds."""
-
-    def few(examples: tuple[Example, ...]) -> tuple[Example, ...]:
-        return examples[::20]
-
-    def small(domain: Domain, *, seed: int) -> Split:
-        part = split(domain, seed=seed)
-        return Split(few(part.training), few(part.validation))
-
-    def smaller(domain: Domain) -> object:
-        data = generate(domain)
-        return type(data)(data.domain, data.seen[::50], data.unseen[::30])
-
-    def few_texts(*, seed: int) -> NoTask:
-        texts = no_task(seed=seed)
-        return NoTask(texts.training[::20], texts.held_out[::10])
-
-    monkeypatch.setattr(train, "at_least", lambda _count, group: group)
-    monkeypatch.setattr(train, "no_task", few_texts)
-    monkeypatch.setattr(train, "split", small)
-    monkeypatch.setattr(train, "generate", smaller)
+def _small_epochs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Epochs of a hundred texts, so that a run takes seconds."""
+    usual = training.Lessons.epoch
+    monkeypatch.setattr(
+        training.Lessons,
+        "epoch",
+        lambda lessons, generator, **_: usual(lessons, generator, commands=10, refusals=30),
+    )
 
 
-@pytest.mark.usefixtures("_small_data")
-def test_script(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Twice the same command: the same files, and a table of every task class."""
+@pytest.mark.usefixtures("_small_epochs")
+def test_the_default_translator(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for folder in ("a", "b"):
-        train.main(["--domain", "manipulation", "--epochs", "2", "--seed", "7", "--output", str(tmp_path / folder)])
-    names = ["cq-copynet-curve.json", "cq-copynet.json", "cq-copynet.safetensors"]
+        train.main(["default", "--epochs", "2", "--seed", "7", "--output", str(tmp_path / folder)])
+    names = ["cq-spans-curve.json", "cq-spans.json", "cq-spans.safetensors"]
     assert sorted(path.name for path in (tmp_path / "a").iterdir()) == names
     for name in names:
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
     record = json.loads((tmp_path / "a" / names[0]).read_text())
-    assert record["settings"]["seed"] == 7
-    assert record["domains"] == ["manipulation"]
+    assert record["training"]["seed"] == 7
     assert [epoch["epoch"] for epoch in record["epochs"]] == [1, 2]
-    assert record["epochs"][1]["training_loss"] < record["epochs"][0]["training_loss"]
-    assert {"S manipulation/ship", "U manipulation/move_to", "S manipulation", "no task, held out"} <= set(
-        record["accuracy"]
-    )
-    assert "U manipulation/pickup_colored" in capsys.readouterr().out
-    CopyNetTranslator.load(tmp_path / "a").translate("Pickup the sphere")
+    assert record["epochs"][1]["loss"] < record["epochs"][0]["loss"]
+    assert "epoch 2" in capsys.readouterr().out
+    SpanTranslator.load(tmp_path / "a").translate("Pickup the sphere")
 
 
-def test_no_epochs() -> None:
-    with pytest.raises(TrainingError):
-        train.train([Domain.MANIPULATION], Settings(epochs=0))
+def test_the_systems_of_the_paper(tmp_path: Path) -> None:
+    train.main(["paper", "--domain", "navigation", "--epochs", "1", "--hide", "0.5", "--output", str(tmp_path)])
+    names = {path.name for path in tmp_path.iterdir()}
+    assert {"cq-copynet-navigation.safetensors", "ltl-copynet-navigation.safetensors"} <= names
+    description = json.loads((tmp_path / "cq-copynet-navigation.json").read_text())
+    assert description["training"]["hide"] == 0.5
+
+
+def test_what_ships_is_what_the_settings_say() -> None:
+    """Weights that were made with other settings than those of the code could not be made again."""
+    made = SpanTranslator.load().model.training
+    settings = training.Settings()
+    assert made == {"seed": 0, **{name: getattr(settings, name) for name in settings.__dataclass_fields__}}
+    for model in (*CqCopyNetTranslator.load().models,):
+        usual = train.copynet.Settings()
+        expected = {name: getattr(usual, name) for name in usual.__dataclass_fields__}
+        assert expected.items() <= dict(model.training).items()
+
+
+def test_no_epochs(tmp_path: Path) -> None:
+    for what in ("default", "paper"):
+        with pytest.raises(TrainingError):
+            train.main([what, "--epochs", "0", "--output", str(tmp_path)])

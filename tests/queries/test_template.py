@@ -33,6 +33,12 @@ def taught(environment: Environment, query: str, ltl: str) -> Template:
     return learn([Example(parse_query(query), parse(ltl))], environment)
 
 
+def taught_twice(environment: Environment) -> Template:
+    """`see`, once with a thing and once with a bin, so that nothing tells which of the two a phrase means."""
+    pairs = [("see(ball, p)", "F lies(ball, p)"), ("see(crate, p)", "F lies(crate, p)")]
+    return learn([Example(parse_query(query), parse(ltl)) for query, ltl in pairs], environment)
+
+
 @pytest.mark.parametrize(
     ("learned", "query", "expected"),
     [
@@ -77,7 +83,7 @@ def test_bindings_say_what_each_phrase_named(store: Environment) -> None:
     ],
 )
 def test_refusals_name_their_place(store: Environment, query: str, error: type[CqltlError], pointer: str) -> None:
-    template = taught(store, "see(ball, p)", "F lies(ball, p)")
+    template = taught_twice(store)
     with pytest.raises(error) as caught:
         evaluate(template, parse_query(query), store)
     assert [place.pointer for place in caught.value.places] == [pointer]
@@ -85,9 +91,46 @@ def test_refusals_name_their_place(store: Environment, query: str, error: type[C
 
 def test_an_ambiguous_phrase_comes_with_its_candidates(store: Environment) -> None:
     with pytest.raises(AmbiguousGroundingError) as caught:
-        evaluate(taught(store, "see(ball, p)", "F lies(ball, p)"), parse_query("see(bag, p)"), store)
+        evaluate(taught_twice(store), parse_query("see(bag, p)"), store)
     assert caught.value.position == 1
     assert sorted(candidate.symbol.name for candidate in caught.value.candidates) == ["sachet", "sack"]
+
+
+def test_a_phrase_that_names_nothing_is_said_before_one_that_fits_several(store: Environment) -> None:
+    with pytest.raises(UnknownObjectError, match="nowhere"):
+        evaluate(taught_twice(store), parse_query("see(bag, nowhere)"), store)
+
+
+@pytest.mark.parametrize(("shown", "meant"), [("ball", "sachet"), ("crate", "sack")])
+def test_what_a_task_was_taught_with_decides_between_things_of_one_name(
+    store: Environment, shown: str, meant: str
+) -> None:
+    template = taught(store, f"see({shown}, p)", f"F lies({shown}, p)")
+    assert formula_text(evaluate(template, parse_query("see(bag, q)"), store).formula) == f"F lies({meant}, q)"
+    # it prefers, and forbids nothing
+    assert formula_text(evaluate(template, parse_query("see(ball, q)"), store).formula) == "F lies(ball, q)"
+    assert formula_text(evaluate(template, parse_query("see(crate, q)"), store).formula) == "F lies(crate, q)"
+
+
+def test_the_preference_holds_where_nothing_is_known_of_the_colors(store: Environment) -> None:
+    toys = load_environment(
+        {
+            "name": "bags",
+            "kind": "oomdp",
+            "domain": "toys",
+            "objects": {
+                "here": {"class": "cell", "attributes": dict.fromkeys(("north", "south", "east", "west"), "here")},
+                "robot": {"class": "robot"},
+                "bag": {"class": "box"},
+                "bag_toy": {"class": "toy", "synonyms": ["bag"]},
+                "ball": {"class": "toy"},
+            },
+            "state": {"robot": {"at": "here"}, **{name: {"in": "here"} for name in ("bag", "bag_toy", "ball")}},
+        }
+    )
+    template = taught(toys, "pick(ball, red)", "F (holding(ball) & colored(ball, red))")
+    expected = "F (holding(bag_toy) & colored(bag_toy, blue))"
+    assert formula_text(evaluate(template, parse_query("pick(bag, blue)"), toys).formula) == expected
 
 
 def test_a_world_without_the_function_is_refused(store: Environment) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -18,6 +19,7 @@ from models.language.errors import VocabularyError
 from models.language.tokens import words
 
 _Shape = TypeVar("_Shape", bound=BaseModel)
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same in C, where PyYAML was built with it
 
 
 class Domain(StrEnum):
@@ -41,6 +43,11 @@ class Word:
     phrase: str
     symbol: str
 
+    @classmethod
+    def of(cls, phrase: str) -> Word:
+        """A phrase that means the object or value of its own name: `teddy bear` is `teddy_bear`."""
+        return cls(phrase, re.sub(r"\W+", "_", phrase))
+
 
 @dataclass(frozen=True, slots=True)
 class Task:
@@ -60,6 +67,13 @@ class Corpus:
     training: int
     vocabulary: Mapping[Part, Mapping[str, tuple[Word, ...]]]
     tasks: tuple[Task, ...]
+
+    def task(self, name: str) -> Task:
+        """The task class of a name; raises KeyError when there is none."""
+        for task in self.tasks:
+            if task.name == name:
+                return task
+        raise KeyError(name)
 
 
 class _Data(BaseModel):
@@ -117,7 +131,7 @@ def parse_corpus(text: str) -> Corpus:
 def load_yaml(text: str, shape: type[_Shape]) -> _Shape:
     """YAML text as a value of a pydantic model; raises `VocabularyError` with the places that do not fit."""
     try:
-        return shape.model_validate(yaml.safe_load(text))
+        return shape.model_validate(yaml.load(text, _LOADER))
     except yaml.YAMLError as error:
         raise _wrong("", f"the data file is not YAML: {error}") from None
     except ValidationError as error:
@@ -135,7 +149,7 @@ def slots(pattern: str) -> tuple[str, ...]:
 def _word(entry: str | _NamedWord) -> Word:
     if isinstance(entry, _NamedWord):
         return Word(entry.phrase, entry.symbol)
-    return Word(entry, entry.replace(" ", "_"))
+    return Word.of(entry)
 
 
 def _check_phrases(corpus: Corpus) -> Iterable[Place]:

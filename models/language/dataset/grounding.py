@@ -6,7 +6,7 @@ every toy of the dataset has far too many states to plan in, and grounding needs
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
@@ -36,10 +36,14 @@ def grounding_environment(domain: Domain | str, part: Part | str) -> dict[str, A
     Nothing in the environment can move or be done.
     """
     domain, part = Domain(domain), Part(part)
-    vocabulary = read_corpus(domain).vocabulary[part]
+    return environment_of(domain, read_corpus(domain).vocabulary[part], name=f"{domain}_{part}")
+
+
+def environment_of(domain: Domain, vocabulary: Mapping[str, Sequence[Word]], *, name: str) -> dict[str, Any]:
+    """As `grounding_environment`, with the objects and values of any vocabulary, by slot of the domain's tasks."""
     return {
         "kind": "oomdp",
-        "name": f"{domain}_{part}",
+        "name": name,
         "domain_spec": _without_dynamics(_WORLD[domain]),
         "values": {slot: [word.symbol for word in vocabulary[slot]] for slot in sorted(_ATTRIBUTES & set(vocabulary))},
         "objects": dict(_objects(vocabulary)),
@@ -55,9 +59,9 @@ def _without_dynamics(name: str) -> dict[str, Any]:
     return {**data, "name": f"{name}_at_rest", "actions": {}, "constraints": []}
 
 
-def _objects(vocabulary: Mapping[str, tuple[Word, ...]]) -> Iterator[tuple[str, dict[str, Any]]]:
+def _objects(vocabulary: Mapping[str, Sequence[Word]]) -> Iterator[tuple[str, dict[str, Any]]]:
     for slot, entries in vocabulary.items():
         if slot not in _ATTRIBUTES:
             for word in entries:
-                named = word.symbol.replace("_", " ") == word.phrase
-                yield word.symbol, {"class": _CLASSES[slot], "synonyms": [] if named else [word.phrase]}
+                synonyms = [] if word == Word.of(word.phrase) else [word.phrase]
+                yield word.symbol, {"class": _CLASSES[slot], "synonyms": synonyms}

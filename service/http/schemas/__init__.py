@@ -1,11 +1,10 @@
 """Shapes of requests and responses (docs/http.md), by resource."""
 
-from service.http.schemas.common import ContextualQueryOut, Health, Request
+from service.http.schemas.common import BindingOut, ContextualQueryOut, Health, Request
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
-    BindingOut,
     CandidateOut,
     GroundRequest,
     GroundResponse,

@@ -6,6 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from service.translators import TranslatorKey
+
 MAX_COMMAND = 2_000
 MAX_FORMULA = 65_536
 
@@ -18,7 +20,8 @@ State = Annotated[
     Field(description="Object to attribute to value; what is left out is as in the initial state."),
 ]
 TranslatorName = Annotated[
-    Literal["default", "cq-copynet"], Field(description="`default` is cq-copynet after the taught wordings.")
+    TranslatorKey,
+    Field(description="`default`, which hears taught wordings first, or one of the paper's three systems."),
 ]
 
 
@@ -34,6 +37,16 @@ class ContextualQueryOut(BaseModel):
     text: str
     task: str
     arguments: list[str]
+
+
+class BindingOut(BaseModel):
+    """What an argument grounded to."""
+
+    argument: int = Field(description="Position of the argument, from 1.")
+    phrase: str
+    name: str = Field(description="The object or attribute value.")
+    kind: str = Field(description="Its class or attribute type.")
+    reason: str = Field(description="Why the phrase names it.")
 
 
 class Health(BaseModel):

@@ -8,6 +8,7 @@ from pydantic import BaseModel, Field
 
 from service.http.problems import ErrorPlace
 from service.http.schemas.common import (
+    BindingOut,
     Command,
     ContextualQueryOut,
     EnvironmentName,
@@ -16,16 +17,6 @@ from service.http.schemas.common import (
     Request,
     TranslatorName,
 )
-
-
-class BindingOut(BaseModel):
-    """What an argument grounded to."""
-
-    argument: int = Field(description="Position of the argument, from 1.")
-    phrase: str
-    name: str = Field(description="The object or attribute value.")
-    kind: str = Field(description="Its class or attribute type.")
-    reason: str = Field(description="Why the phrase names it.")
 
 
 class TranslateRequest(Request):
@@ -49,9 +40,12 @@ class BatchRequest(Request):
 class CandidateOut(BaseModel):
     """One reading of a command."""
 
-    contextual_query: ContextualQueryOut
-    ltl: str | None = Field(description="Grounded LTL; null when it cannot be grounded, see `issues`.")
-    confidence: float = Field(description="Probability that the translator gives this reading.")
+    contextual_query: ContextualQueryOut | None = Field(description="Null from `ltl-copynet`, which gives formulas.")
+    ltl: str | None = Field(
+        description="Grounded LTL; null without an environment, or when it cannot be grounded, see `issues`. "
+        "From `ltl-copynet` without an environment: as the network wrote it."
+    )
+    confidence: float = Field(description="Probability of this reading, in the environment if one is named.")
     explanation: str | None = Field(description="The formula read back in English.")
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
@@ -111,6 +105,7 @@ class ParameterOut(BaseModel):
 
     position: int = Field(description="From 1; `$1` in the template.")
     type: str = Field(description="The kinds it may have, for example `toy` or `box | toy`.")
+    taught: str = Field(description="Those of the things it was taught with: they decide when a phrase fits several.")
 
 
 class PairOut(BaseModel):

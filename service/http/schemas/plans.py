@@ -8,6 +8,7 @@ from pydantic import BaseModel, Field, model_validator
 
 from models.world import EnvironmentSpec
 from service.http.schemas.common import (
+    BindingOut,
     Command,
     ContextualQueryOut,
     EnvironmentName,
@@ -99,6 +100,7 @@ class PlanResponse(BaseModel):
     contextual_query: ContextualQueryOut | None
     ltl: str
     explanation: str
+    bindings: list[BindingOut] = Field(description="What the phrases of a command or query were taken for.")
     warnings: list[str] = Field(description="What to know of the template that the formula came from.")
     environment: str
     probability: Bounds = Field(description="Maximal probability of satisfying the formula.")

@@ -1,4 +1,4 @@
-"""The training split T and the texts that no task fits."""
+"""The training split T."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language.dataset import Domain, Part, generate, no_task, read_corpus, split
+from models.language.dataset import Domain, Part, generate, read_corpus, split
 from models.language.dataset.split import equal_quotas, proportional_quotas
-from models.language.tokens import words
 
 SIZES = {Domain.MANIPULATION: 1920, Domain.NAVIGATION: 840}
 
@@ -71,27 +70,3 @@ def test_proportional_quotas(sizes: dict[str, int]) -> None:
     assert sum(quotas.values()) == total
     for task, quota in quotas.items():
         assert abs(quota - sizes[task] * total / sum(sizes.values())) <= 1
-
-
-def test_texts_without_a_task() -> None:
-    texts = no_task()
-    training, held_out = ({words(text) for text in part} for part in (texts.training, texts.held_out))
-    commands = {words(e.text) for d in Domain for e in (*generate(d).seen, *generate(d).unseen)}
-    assert len(training) > 400
-    assert len(held_out) > 100
-    assert not training & held_out
-    assert not (training | held_out) & commands
-    assert all(training | held_out)
-    assert no_task() == no_task(seed=0) != no_task(seed=1)
-
-
-def test_texts_without_a_task_keep_the_unseen_words_unseen() -> None:
-    unseen = {
-        word
-        for domain in Domain
-        for entries in read_corpus(domain).vocabulary[Part.UNSEEN].values()
-        for entry in entries
-        for word in entry.phrase.split()
-    }
-    texts = no_task()
-    assert not {word for text in (*texts.training, *texts.held_out) for word in words(text)} & unseen

@@ -23,7 +23,10 @@ def test_learns_a_class_and_grounds_it_on_other_objects(client: httpx.Client) ->
     assert response.json() == {
         "task": "stow",
         "arity": 2,
-        "parameters": [{"position": 1, "type": "toy"}, {"position": 2, "type": "box"}],
+        "parameters": [
+            {"position": 1, "type": "toy", "taught": "toy"},
+            {"position": 2, "type": "box", "taught": "box"},
+        ],
         "template": "F in($1, $2)",
         "lifted": "F in(t, b)",
         "pairs": [{"contextual_query": "stow(cylinder, box)", "ltl": "F in(cylinder, box)", "environment": "toys"}],

@@ -168,10 +168,18 @@ def test_warnings_come_with_the_translation(client: httpx.Client) -> None:
     assert client.post("/plan", json=query).json()["warnings"] == warnings
 
 
-def test_a_misspelt_name_is_suggested(client: httpx.Client) -> None:
-    response = client.post("/ground", json={"contextual_query": "pickup(sphre)", "environment": "toys"})
+def test_a_misspelt_name_is_understood_and_said_to_be_so(client: httpx.Client) -> None:
+    answer = client.post("/translate", json={"text": "Pickup the sphre", "environment": "toys"}).json()
+    assert (answer["contextual_query"]["text"], answer["ltl"]) == ("pickup(sphre)", "F holding(sphere)")
+    assert answer["bindings"][0]["reason"] == 'a toy named sphere, reading "sphre" as "sphere"'
+    planned = client.post("/plan", json={"text": "Pickup the sphre", "environment": "toys"}).json()
+    assert (planned["outcome"], planned["bindings"]) == ("solved", answer["bindings"])
+
+
+def test_a_name_with_two_mistakes_is_only_suggested(client: httpx.Client) -> None:
+    response = client.post("/ground", json={"contextual_query": "pickup(clyinde)", "environment": "toys"})
     problem = check_problem(response, "unknown-object", 422, ["/contextual_query/arguments/0"])
-    assert "did you mean sphere?" in problem["detail"]
+    assert "did you mean cylinder?" in problem["detail"]
 
 
 def test_a_text_of_a_batch_is_named(client: httpx.Client) -> None:

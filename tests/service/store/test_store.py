@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from pathlib import Path
 
@@ -30,6 +31,7 @@ def template(task: str, revision: int = 1) -> StoredTemplate:
         template="F holding($1)",
         lifted="F holding(t)",
         kinds=(("box", "toy"),),
+        taught=(("toy",),),
         pairs=(StoredPair(f"{task}(a)", "F holding(a)", "toys"),),
         examples=(StoredExample("take a", f"{task}(a)"),),
         warnings=("odd",),
@@ -81,7 +83,10 @@ def test_rows_come_back_as_they_were_put(url: str) -> None:
         assert transaction.templates.page(limit=9) == [template("a", 2), template("b")]
         assert transaction.templates.page(after="a", limit=9) == [template("b")]
         assert transaction.templates.examples() == [StoredExample("take a", f"{task}(a)") for task in "ab"]
+        assert transaction.templates.among(["a", "c"]) == {"a": template("a", 2)}
+        assert transaction.templates.among([]) == {}
         assert list(transaction.environments.get("e").data) == ["z", "a"]
+        assert json.loads(transaction.environments.text("e")) == {"z": [1], "a": {"nested": "ö"}}
         assert transaction.policies.get("p").data == b"\x00\xff"
     store.close()
 
@@ -99,8 +104,9 @@ def test_a_failed_transaction_stores_nothing(url: str) -> None:
         write()
     with store.read() as transaction:
         assert transaction.templates.find("half") is None
-        with pytest.raises(UnknownEnvironmentError):
-            transaction.environments.get("half")
+        for read in (transaction.environments.get, transaction.environments.text):
+            with pytest.raises(UnknownEnvironmentError, match="half"):
+                read("half")
     store.close()
 
 

@@ -1,0 +1,172 @@
+"""Readings of a command in an environment: what makes sense there comes first.
+
+A translator knows the words, not the place: "put the bag in the bag" is one thing where bags are toys and boxes, and
+another where they are not. Its probability of a reading is weighed by how much sense the reading makes there:
+
+    P(reading | text, environment)  ~  P(reading | text) · weight
+
+and scaled so that all readings together stay as probable as they were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from models.errors import CqltlError, Place
+from models.language.tagging import part_of_speech
+from models.language.tokens import words
+from models.language.translation import Translation
+from models.logic import Formula
+from models.logic import to_text as formula_text
+from models.queries import (
+    AmbiguousGroundingError,
+    ContextualQuery,
+    GroundedTask,
+    Template,
+    check_arity,
+    evaluate,
+    resolve_grounded,
+)
+from models.world import Environment
+
+GROUNDED = 1.0
+"""Weight of a reading that means one thing in the environment."""
+AMBIGUOUS = 0.5
+"""Weight of one with a phrase that fits several things: it makes sense, and the speaker can be asked."""
+MISSPELT = 0.3
+"""Factor for a reading that makes sense only when a word is taken for misspelt: what is said exactly is likelier."""
+SENSELESS = 1e-4
+"""Weight of one that means nothing in the environment. Not 0: people do ask for what is not there."""
+
+R = TypeVar("R", "Reading", "FormulaReading")
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A contextual query that a command may say.
+
+    `task` is what it means in the environment and `refusal` why it means nothing there; both are None without an
+    environment, unless the query has the wrong number of arguments.
+    """
+
+    query: ContextualQuery
+    confidence: float
+    task: GroundedTask | None = None
+    refusal: CqltlError | None = None
+
+    @property
+    def weight(self) -> float:
+        """How much sense it makes in the environment; without one, as much as can be."""
+        if self.refusal is None:
+            weight = GROUNDED
+            candidates = [binding.candidate for binding in self.task.bindings] if self.task else []
+        elif isinstance(self.refusal, AmbiguousGroundingError):
+            weight, candidates = AMBIGUOUS, list(self.refusal.candidates)
+        else:
+            return SENSELESS
+        return weight * MISSPELT if any(candidate.misspelt is not None for candidate in candidates) else weight
+
+
+@dataclass(frozen=True, slots=True)
+class FormulaReading:
+    """A formula that a command may say, of a translator that gives formulas.
+
+    `formula` is resolved in the environment, and as the translator gave it without one or with a `refusal`.
+    """
+
+    formula: Formula
+    confidence: float
+    refusal: CqltlError | None = None
+
+    @property
+    def weight(self) -> float:
+        """As `Reading.weight`."""
+        return GROUNDED if self.refusal is None else SENSELESS
+
+
+def rank(
+    text: str,
+    translations: Sequence[Translation],
+    *,
+    template_of: Callable[[str], Template | None],
+    environment: Environment | None,
+) -> tuple[Reading, ...]:
+    """The readings of a text, grounded in the environment, the most probable there first.
+
+    Readings of a task without a template are left out, and none is given when one of them is the most probable: what
+    says a task that is not known is not taken for another. Parts of speech in the text, whatever its case and
+    punctuation, decide between homonyms that nothing else tells apart.
+    """
+    readings = _ordered(read(text, translations, template_of=template_of, environment=environment))
+    left_out = max((t.confidence for t in translations if template_of(t.query.task) is None), default=0.0)
+    return readings if readings and readings[0].confidence >= left_out else ()
+
+
+def read(
+    text: str,
+    translations: Iterable[Translation],
+    *,
+    template_of: Callable[[str], Template | None],
+    environment: Environment | None,
+) -> tuple[Reading, ...]:
+    """As `rank`, in the order and with the confidences of the translations."""
+    readings = []
+    for translation in translations:
+        template = template_of(translation.query.task)
+        if template is not None:
+            readings.append(_read(text, translation, template, environment))
+    return tuple(readings)
+
+
+def rank_formulas(
+    translations: Iterable[tuple[Formula, float]], *, environment: Environment | None
+) -> tuple[FormulaReading, ...]:
+    """As `rank`, for formulas with their probabilities: those that the environment can resolve come first."""
+    return _ordered([_resolve(formula, confidence, environment) for formula, confidence in translations])
+
+
+def ground_query(query: ContextualQuery, template: Template, environment: Environment, *, text: str) -> GroundedTask:
+    """`models.queries.evaluate` for a query that a text says: its parts of speech are asked when nothing else decides.
+
+    Raises as `evaluate`.
+    """
+    try:
+        return evaluate(template, query, environment)
+    except AmbiguousGroundingError as error:
+        is_object = environment.vocabulary.is_object
+        if len({is_object(candidate.symbol) for candidate in error.candidates}) < 2:
+            raise  # all are nouns, or all are adjectives
+    plain = " ".join(words(text))
+    tags = [part_of_speech(plain, phrase) for phrase in query.arguments]
+    return evaluate(template, query, environment, parts_of_speech=tags)
+
+
+def _read(text: str, translation: Translation, template: Template, environment: Environment | None) -> Reading:
+    query, confidence = translation.query, translation.confidence
+    try:
+        check_arity(template, query)
+        task = None if environment is None else ground_query(query, template, environment, text=text)
+    except CqltlError as error:
+        return Reading(query, confidence, None, error)
+    return Reading(query, confidence, task)
+
+
+def _resolve(formula: Formula, confidence: float, environment: Environment | None) -> FormulaReading:
+    if environment is None:
+        return FormulaReading(formula, confidence)
+    try:
+        return FormulaReading(resolve_grounded(formula, environment), confidence)
+    except CqltlError as error:
+        detail = f"{formula_text(formula)}: {error.detail}"
+        error.places = (Place("", detail),)
+        return FormulaReading(formula, confidence, error)
+
+
+def _ordered(readings: Sequence[R]) -> tuple[R, ...]:
+    """By probability in the environment, equally probable ones in their order, together as probable as before."""
+    weighed = [reading.confidence * reading.weight for reading in readings]
+    scale = sum(reading.confidence for reading in readings) / (sum(weighed) or 1.0)
+    ranked = [replace(reading, confidence=w * scale) for reading, w in zip(readings, weighed, strict=True)]
+    return tuple(sorted(ranked, key=lambda reading: -reading.confidence))

@@ -1,0 +1,76 @@
+"""A linear-chain conditional random field over the words of a text (Lafferty, McCallum, Pereira, ICML 2001).
+
+Shapes: N texts, S words, L tags. Scores are logarithms and not normalised. A transition that must not be has
+`FORBIDDEN`.
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+FORBIDDEN = -1e4
+"""The score of what must not be: finite, so that sums of it have gradients."""
+
+
+def log_partition(emissions: Tensor, transitions: Tensor, start: Tensor, lengths: Tensor) -> Tensor:
+    """The logarithm of the summed exponentials of all tag sequences' scores, [N].
+
+    Args:
+        emissions: [N, S, L]; what lies beyond a text's length is ignored.
+        transitions: [N, L, L], from the first tag to the second.
+        start: [N, L], for the first word.
+        lengths: [N], each at least 1.
+    """
+    alpha = start + emissions[:, 0]  # [N, L]
+    for position in range(1, emissions.shape[1]):
+        following = (alpha[:, :, None] + transitions).logsumexp(dim=1) + emissions[:, position]  # [N, L]
+        alpha = torch.where((position < lengths)[:, None], following, alpha)
+    return alpha.logsumexp(dim=1)
+
+
+def score(emissions: Tensor, transitions: Tensor, start: Tensor, lengths: Tensor, tags: Tensor) -> Tensor:
+    """The scores [N] of the tag sequences `tags` [N, S]; other arguments as `log_partition`."""
+    count = emissions.shape[1]
+    said = emissions.gather(2, tags[:, :, None]).squeeze(2)  # [N, S]
+    rows = torch.arange(len(tags))[:, None]  # [N, 1]
+    moves = transitions[rows, tags[:, :-1], tags[:, 1:]]  # [N, S - 1]
+    here = torch.arange(count) < lengths[:, None]  # [N, S]
+    return start.gather(1, tags[:, :1]).squeeze(1) + (said * here).sum(dim=1) + (moves * here[:, 1:]).sum(dim=1)  # [N]
+
+
+def best_sequences(
+    emissions: Tensor, transitions: Tensor, start: Tensor, *, count: int
+) -> tuple[tuple[float, tuple[int, ...]], ...]:
+    """The tag sequences of one text with the highest scores, best first, at most `count` (Viterbi, k best).
+
+    Args:
+        emissions: [S, L].
+        transitions: [L, L].
+        start: [L].
+    """
+    tags = emissions.shape[1]
+    scores = (start + emissions[0])[:, None]  # [L, K], per last tag the best sequences so far, best first
+    pointers: list[tuple[Tensor, Tensor]] = []
+    for emission in emissions[1:]:
+        width = scores.shape[1]
+        reached = scores[:, :, None] + transitions[:, None, :]  # [L, K, L]
+        best, places = reached.reshape(tags * width, tags).topk(min(count, tags * width), dim=0)  # [K', L]
+        pointers.append((places.T // width, places.T % width))  # [L, K'], the tag before, and which of its sequences
+        scores = best.T + emission[:, None]  # [L, K']
+    width = scores.shape[1]
+    best, places = scores.flatten().topk(min(count, scores.numel()))
+    backward = [(before.tolist(), rank.tolist()) for before, rank in reversed(pointers)]
+    found = []
+    for value, place in zip(best.tolist(), places.tolist(), strict=True):
+        if value > FORBIDDEN / 2:
+            found.append((value, _trace(backward, place // width, place % width)))
+    return tuple(found)
+
+
+def _trace(backward: list[tuple[list[list[int]], list[list[int]]]], tag: int, rank: int) -> tuple[int, ...]:
+    sequence = [tag]
+    for before, ranks in backward:
+        tag, rank = before[tag][rank], ranks[tag][rank]
+        sequence.append(tag)
+    return tuple(reversed(sequence))

@@ -1,0 +1,146 @@
+"""The texts of an epoch, drawn anew each time: commands of T and their like, and texts that no task fits.
+
+Half of the commands are those of T (paper, Table I), half say the same in other words. Of both, most name other things
+than T does, some are framed ("robot, please ..."), and some have a slip of the pen. So nothing but the wordings can be
+learned by heart. U and the held-out parts of the lists are never drawn.
+"""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from spacy.lang.en.stop_words import STOP_WORDS
+
+from models.language.dataset import (
+    Domain,
+    Example,
+    by_task,
+    fill,
+    framed,
+    misspell,
+    no_task,
+    paraphrases,
+    read_corpus,
+    redetermined,
+    split,
+)
+from models.language.spans.items import Item
+from models.language.spans.names import Names, names
+from models.language.tokens import words
+from models.language.translation import NEGATIONS
+
+RENAMED = 0.7
+"""Part of T's commands that are drawn with other things in them."""
+FRAMED = 0.4
+"""Part of the commands drawn in a polite frame."""
+REDETERMINED = 0.15
+"""Part of the commands that say "my", "that", "a" or nothing for "the"."""
+MISSPELLED = 0.15
+"""Part of the texts with one slip, two of three in the name of a thing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lessons:
+    """What texts are drawn from.
+
+    Attributes:
+        training: T's commands for fitting, by task class.
+        validation: T's commands that are only looked at.
+        refused, held_out: texts that no task fits, for fitting and for looking at.
+        tasks: the task classes with their argument slots, in order.
+    """
+
+    training: Mapping[str, Sequence[Example]]
+    validation: Sequence[Example]
+    refused: Sequence[Item]
+    held_out: Sequence[Item]
+    tasks: Mapping[str, tuple[Domain, tuple[str, ...]]]
+    names: Names
+
+    @classmethod
+    def load(cls, *, seed: int) -> Lessons:
+        """T as it is drawn with a seed, of both domains."""
+        splits = [split(domain, seed=seed) for domain in Domain]
+        refused = no_task(seed=seed)
+        lessons = cls(
+            training=by_task(example for part in splits for example in part.training),
+            validation=[example for part in splits for example in part.validation],
+            refused=[Item(spoken) for text in refused.training if (spoken := words(text))],
+            held_out=[Item(spoken) for text in refused.held_out if (spoken := words(text))],
+            tasks={task.name: (domain, task.arguments) for domain in Domain for task in read_corpus(domain).tasks},
+            names=names(),
+        )
+        content = [word for word in spoken_words(lessons) if word not in STOP_WORDS and word not in NEGATIONS]
+        return replace(lessons, names=replace(lessons.names, spoken=content))
+
+    def epoch(self, generator: random.Random, *, commands: int, refusals: int) -> list[Item]:
+        """Texts for one pass: `commands` of each task class, and `refusals` that no task fits."""
+        items = [self.command(task, generator) for task in self.tasks for _ in range(commands)]
+        items += generator.choices(self.refused, k=refusals)
+        return [misspelled(item, generator) if generator.random() < MISSPELLED else item for item in items]
+
+    def command(self, task: str, generator: random.Random) -> Item:
+        """A command of a task class."""
+        if generator.random() < 0.5:
+            example = generator.choice(self.training[task])
+            rename = generator.random() < RENAMED
+        else:
+            example, rename = self._paraphrase(task, generator), True
+        if generator.random() < REDETERMINED:
+            example = redetermined(example, generator, part="training")
+        item = Item.command(example)
+        if generator.random() < FRAMED:
+            item = Item.command(framed(example, generator, part="training")).around(item)
+        return self.renamed(item, generator) if rename else item
+
+    def renamed(self, item: Item, generator: random.Random) -> Item:
+        """The same command of other things."""
+        assert item.task is not None
+        apart = not any(end == begin for _, end in item.mentions[-1] for begin, _ in item.mentions[0])
+        slots = self.tasks[item.task][1]
+        return item.renamed([self.names.draw(slot, generator, apart=apart) for slot in slots])
+
+    def checks(self, generator: random.Random) -> list[Item]:
+        """What a network is judged by between epochs: commands that it was not fitted to, as they are, of other things,
+        and with a slip; and texts that no task fits.
+        """
+        commands = [Item.command(example) for example in self.validation]
+        renamed = [self.renamed(item, generator) for item in commands]
+        return [*commands, *renamed, *(misspelled(item, generator) for item in renamed), *self.held_out]
+
+    def _paraphrase(self, task: str, generator: random.Random) -> Example:
+        """A wording beyond those of T, filled with whatever; its arguments are renamed later."""
+        domain, slots = self.tasks[task]
+        wording = generator.choice(paraphrases(domain, "training")[task])
+        return fill(domain, task, wording, {slot: f"thing{number}" for number, slot in enumerate(slots)})
+
+
+def misspelled(item: Item, generator: random.Random) -> Item:
+    """The item with one slip in a word of three letters or more, if it has one."""
+    places = [place for place, word in enumerate(item.text) if len(word) >= 3]
+    named = [place for place in places if place in item.mentioned]
+    if named and generator.random() < 2 / 3:
+        places = named
+    if not places:
+        return item
+    place = generator.choice(places)
+    return item.respelled(place, misspell(item.text[place], generator))
+
+
+def spoken_words(lessons: Lessons) -> tuple[str, ...]:
+    """The words that say what to do and not with what, sorted: every word of a wording or frame beside its names, and
+    what is said more than once in texts that no task fits, but for names of things.
+    """
+    generator = random.Random(0)
+    commands = [Item.command(example) for group in lessons.training.values() for example in group]
+    for task, (domain, slots) in lessons.tasks.items():
+        for wording in paraphrases(domain, "training")[task]:
+            example = fill(domain, task, wording, dict.fromkeys(slots, "thing"))
+            commands += [Item.command(framed(example, generator, part="training")) for _ in range(20)]
+    kept = {word for item in commands for place, word in enumerate(item.text) if place not in item.mentioned}
+    counts = Counter(word for item in lessons.refused for word in item.text)
+    said = {word for word, count in counts.items() if count > 1}
+    return tuple(sorted(kept | (said - lessons.names.words)))

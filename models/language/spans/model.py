@@ -1,0 +1,91 @@
+"""A trained default translator on disk: `NAME.safetensors` holds the tensors, `NAME.json` what it takes to use them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+from pathlib import Path
+
+import torch
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from safetensors import SafetensorError
+from safetensors.torch import load as load_tensors
+from safetensors.torch import save as save_tensors
+
+from models.language.errors import WeightsError
+from models.language.spans.network import SpanConfig, SpanNet
+
+DEFAULT_NAME = "cq-spans"
+"""The model that is shipped."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SpanModel:
+    """A network with what makes it a translator.
+
+    Attributes:
+        temperature: what its scores are divided by, so that its probabilities are those of being right.
+        training: how it was made, for the record: seed, epochs, hyper-parameters.
+    """
+
+    network: SpanNet
+    temperature: float
+    training: Mapping[str, str | int | float]
+
+
+class _Data(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _NetworkData(_Data):
+    words: tuple[str, ...]
+    tasks: tuple[tuple[str, int], ...] = Field(min_length=1)
+    lexical: int = Field(ge=1, le=4096)
+    embedding: int = Field(ge=1, le=4096)
+    projection: int = Field(ge=1, le=4096)
+    encoder: int = Field(ge=1, le=4096)
+    layers: int = Field(ge=1, le=8)
+    dropout: float = Field(ge=0, lt=1)
+
+
+class _ModelData(_Data):
+    temperature: float = Field(gt=0)
+    training: dict[str, str | int | float]
+    network: _NetworkData
+
+
+def save_model(model: SpanModel, folder: Path, *, name: str = DEFAULT_NAME) -> None:
+    """Write both files, replacing what is there; the same model gives the same bytes."""
+    data = _ModelData(
+        network=_NetworkData(**asdict(model.network.config)),
+        temperature=model.temperature,
+        training=dict(model.training),
+    )
+    tensors = {key: tensor.contiguous() for key, tensor in sorted(model.network.state_dict().items())}
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{name}.safetensors").write_bytes(save_tensors(tensors))
+    text = json.dumps(data.model_dump(), indent=1, ensure_ascii=False)
+    (folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def load_model(folder: Path | None = None, *, name: str = DEFAULT_NAME) -> SpanModel:
+    """Read a model, ready to translate; without a folder, from those that are shipped.
+
+    Raises:
+        WeightsError: a file is missing or damaged, or the two do not fit together.
+    """
+    place = files("models.language") / "weights" if folder is None else folder
+    try:
+        data = _ModelData.model_validate_json((place / f"{name}.json").read_text(encoding="utf-8"))
+        with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
+            network = SpanNet(SpanConfig(**data.network.model_dump()))
+        network.load_state_dict(load_tensors((place / f"{name}.safetensors").read_bytes()), assign=True)
+    except OSError as error:
+        raise WeightsError(f"the model {name} cannot be read: {error.strerror} ({error.filename})") from None
+    except ValidationError as error:
+        raise WeightsError(f"{name}.json is not the description of a model: {error.errors()[0]['msg']}") from None
+    except (ValueError, RuntimeError, SafetensorError) as error:
+        raise WeightsError(f"the files of the model {name} are damaged or do not fit together: {error}") from None
+    return SpanModel(network.eval(), data.temperature, data.training)

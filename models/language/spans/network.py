@@ -1,0 +1,161 @@
+"""The network of the default translator: which task a text asks for, and which of its words name the arguments.
+
+Words are known by what they do, not by what they name: those of wordings ("put", "then", "the") have embeddings of
+their own, all others only the vector of the lexicon. So a phrase that training never held is read like one that it
+did, which is lifting (paper, § Approach) applied to the words. A bidirectional GRU reads both; one head scores the
+task classes, another the tags of every word under each, and a conditional random field per task class joins the tags.
+
+Shapes: B texts, S words, D lexicon, H states, K task classes, L tags.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import torch
+from torch import Tensor, nn
+from torch.nn.utils.rnn import pack_padded_sequence, pad_packed_sequence
+
+from models.language.spans.crf import log_partition, score
+from models.language.spans.lexicon import Lexicon
+from models.language.spans.tags import MAX_ARGUMENTS, TAGS, forbidden_moves
+
+
+@dataclass(frozen=True, slots=True)
+class SpanConfig:
+    """The sizes of a network.
+
+    Attributes:
+        words: the words with embeddings of their own, by number from 1; 0 stands for all others.
+        tasks: the task classes, in the order of the network's outputs, with their numbers of arguments. One output
+            more, the last, says that no task fits.
+        lexical: D.
+    """
+
+    words: tuple[str, ...]
+    tasks: tuple[tuple[str, int], ...]
+    lexical: int
+    embedding: int = 48
+    projection: int = 64  # of the lexicon's vectors
+    encoder: int = 96  # in each direction and layer
+    layers: int = 2
+    dropout: float = 0.25
+
+    def __post_init__(self) -> None:
+        if len(set(self.words)) != len(self.words) or len(dict(self.tasks)) != len(self.tasks):
+            raise ValueError("a network knows every word and every task once")
+        if not all(1 <= arity <= MAX_ARGUMENTS for _, arity in self.tasks):
+            raise ValueError(f"a task has between 1 and {MAX_ARGUMENTS} arguments")
+
+    @property
+    def no_task(self) -> int:
+        """The output that says that no task fits, K."""
+        return len(self.tasks)
+
+
+@dataclass(frozen=True, slots=True)
+class TextBatch:
+    """B texts of up to S words, padded at the end."""
+
+    numbers: Tensor  # [B, S] int64, words with embeddings; 0 for the others
+    vectors: Tensor  # [B, S, D] float32
+    lengths: Tensor  # [B] int64
+
+    @classmethod
+    def of(
+        cls,
+        texts: Sequence[Sequence[str]],
+        numbers: Mapping[str, int],
+        lexicon: Lexicon,
+        *,
+        hidden: Sequence[Sequence[bool]] | None = None,
+    ) -> Self:
+        """Folded words as tensors; each text has a word. `hidden[i][j]` takes the embedding of a word j away."""
+        width = max(len(text) for text in texts)
+        ids = torch.zeros(len(texts), width, dtype=torch.int64)
+        vectors = torch.zeros(len(texts), width, lexicon.size)
+        for row, text in enumerate(texts):
+            known = [numbers.get(word, 0) for word in text]
+            if hidden is not None:
+                known = [0 if absent else number for number, absent in zip(known, hidden[row], strict=True)]
+            ids[row, : len(text)] = torch.tensor(known)
+            vectors[row, : len(text)] = torch.from_numpy(lexicon.vectors(text))
+        return cls(ids, vectors, torch.tensor([len(text) for text in texts]))
+
+
+@dataclass(frozen=True, slots=True)
+class Scores:
+    """What the network says of B texts."""
+
+    tasks: Tensor  # [B, K + 1], not normalised
+    emissions: Tensor  # [B, S, K, L], of every tag under every task
+
+
+class SpanNet(nn.Module):
+    """Encoder, task classifier, and one conditional random field per task class."""
+
+    allowed: Tensor
+    allowed_start: Tensor
+
+    def __init__(self, config: SpanConfig) -> None:
+        super().__init__()
+        self.config = config
+        tasks, states = len(config.tasks), 2 * config.encoder
+        self.embedding = nn.Embedding(len(config.words) + 1, config.embedding)
+        self.projection = nn.Linear(config.lexical, config.projection)
+        self.dropout = nn.Dropout(config.dropout)
+        self.encoder = nn.GRU(
+            config.embedding + config.projection,
+            config.encoder,
+            num_layers=config.layers,
+            dropout=config.dropout if config.layers > 1 else 0.0,
+            batch_first=True,
+            bidirectional=True,
+        )
+        self.task = nn.Linear(2 * states, tasks + 1)
+        self.tag = nn.Linear(states, tasks * TAGS)
+        self.transition = nn.Parameter(torch.zeros(tasks, TAGS, TAGS))
+        rules = [forbidden_moves(arity) for _, arity in config.tasks]
+        self.register_buffer("allowed", torch.tensor([moves for moves, _ in rules]), persistent=False)  # [K, L, L]
+        self.register_buffer("allowed_start", torch.tensor([start for _, start in rules]), persistent=False)  # [K, L]
+
+    def forward(self, batch: TextBatch) -> Scores:
+        """Score the tasks and the tags of every word."""
+        lexical = torch.tanh(self.projection(batch.vectors))  # [B, S, projection]
+        read = self.dropout(torch.cat([self.embedding(batch.numbers), lexical], dim=2))  # [B, S, E]
+        packed = pack_padded_sequence(read, batch.lengths, batch_first=True, enforce_sorted=False)
+        states, _ = pad_packed_sequence(self.encoder(packed)[0], batch_first=True)  # [B, S, H]
+        here = (torch.arange(states.shape[1]) < batch.lengths[:, None])[:, :, None]  # [B, S, 1]
+        highest = states.masked_fill(~here, -1.0).amax(dim=1)  # [B, H]; a GRU's states lie between -1 and 1
+        mean = (states * here).sum(dim=1) / batch.lengths[:, None]  # [B, H]
+        states = self.dropout(states)
+        return Scores(
+            tasks=self.task(self.dropout(torch.cat([highest, mean], dim=1))),
+            emissions=self.tag(states).unflatten(2, (len(self.config.tasks), TAGS)),
+        )
+
+
+def log_likelihood(
+    network: SpanNet, scores: Scores, batch: TextBatch, tasks: Tensor, tags: Tensor, *, temperature: float = 1.0
+) -> Tensor:
+    """The log-probabilities [B] of the right answers: of the task, and of the tags under it when there is one.
+
+    Args:
+        tasks: [B] int64, K where no task fits.
+        tags: [B, S] int64; ignored where no task fits.
+        temperature: what all scores are divided by.
+    """
+    task = (scores.tasks / temperature).log_softmax(dim=1).gather(1, tasks[:, None]).squeeze(1)  # [B]
+    asked = tasks < network.config.no_task  # [B]
+    if not bool(asked.any()):
+        return task
+    kinds, lengths = tasks[asked], batch.lengths[asked]  # [N], [N]
+    places = kinds[:, None, None, None].expand(-1, scores.emissions.shape[1], 1, TAGS)
+    emissions = scores.emissions[asked].gather(2, places).squeeze(2) / temperature  # [N, S, L]
+    transitions = (network.transition / temperature + network.allowed)[kinds]  # [N, L, L]
+    start = network.allowed_start[kinds]  # [N, L]
+    said = score(emissions, transitions, start, lengths, tags[asked])  # [N]
+    total = log_partition(emissions, transitions, start, lengths)  # [N]
+    return task.index_add(0, asked.nonzero().squeeze(1), said - total)

@@ -1,0 +1,65 @@
+"""Tags of words: outside, or the beginning or the rest of a mention of an argument."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from models.language.spans.crf import FORBIDDEN
+
+OUTSIDE = 0
+MAX_ARGUMENTS = 3
+"""The most arguments of a task class."""
+TAGS = 1 + 2 * MAX_ARGUMENTS
+"""L: `OUTSIDE`, then two for each argument position."""
+Span = tuple[int, int]
+"""A half-open range of the words of a text."""
+
+
+def begins(argument: int) -> int:
+    """The tag of the first word of a mention of an argument, counted from 0."""
+    return 1 + 2 * argument
+
+
+def goes_on(argument: int) -> int:
+    """The tag of the other words of a mention."""
+    return 2 + 2 * argument
+
+
+def tags_of(count: int, mentions: Sequence[Sequence[Span]]) -> tuple[int, ...]:
+    """The tags of a text of `count` words, of which `mentions[i]` name argument `i`."""
+    tags = [OUTSIDE] * count
+    for argument, spans in enumerate(mentions):
+        for begin, end in spans:
+            tags[begin:end] = [begins(argument), *[goes_on(argument)] * (end - begin - 1)]
+    return tuple(tags)
+
+
+def mentions_of(tags: Sequence[int], arity: int) -> tuple[tuple[Span, ...], ...]:
+    """The mentions of each argument, left to right; the inverse of `tags_of`."""
+    mentions: list[list[Span]] = [[] for _ in range(arity)]
+    for place, tag in enumerate(tags):
+        if tag == OUTSIDE:
+            continue
+        argument, rest = divmod(tag - 1, 2)
+        if rest:
+            mentions[argument][-1] = (mentions[argument][-1][0], place + 1)
+        else:
+            mentions[argument].append((place, place + 1))
+    return tuple(map(tuple, mentions))
+
+
+def forbidden_moves(arity: int) -> tuple[list[list[float]], list[float]]:
+    """Scores [L, L] of pairs of neighbouring tags and [L] of the first tag: 0, or `FORBIDDEN`.
+
+    A mention goes on only after it began, and a task has no tags beyond its arguments.
+    """
+    usable = [tag <= 2 * arity for tag in range(TAGS)]
+    moves = [
+        [0.0 if usable[before] and usable[after] and _may_follow(before, after) else FORBIDDEN for after in range(TAGS)]
+        for before in range(TAGS)
+    ]
+    return moves, [0.0 if usable[tag] and (tag == OUTSIDE or tag % 2) else FORBIDDEN for tag in range(TAGS)]
+
+
+def _may_follow(before: int, after: int) -> bool:
+    return after == OUTSIDE or after % 2 == 1 or before in (after - 1, after)

@@ -1,0 +1,97 @@
+"""A small model from the beginning to the end: fitted, calibrated, stored, read again, asked."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import torch
+
+from models.language import SpanTranslator, TrainingError
+from models.language.dataset import Domain, generate
+from models.language.errors import WeightsError
+from models.language.spans import SpanModel, load_model, save_model
+from models.language.spans.training import Epoch, Settings, train
+
+SMALL = Settings(epochs=4, commands=100, refusals=150, batch=16, embedding=24, projection=24, encoder=32, layers=1)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _one_thread() -> Iterator[None]:
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    yield
+    torch.set_num_threads(threads)
+
+
+@pytest.fixture(scope="module")
+def trained() -> tuple[SpanModel, list[Epoch]]:
+    curve: list[Epoch] = []
+    return train(SMALL, seed=3, log=curve.append), curve
+
+
+def test_it_learns(trained: tuple[SpanModel, list[Epoch]]) -> None:
+    model, curve = trained
+    assert [epoch["epoch"] for epoch in curve] == [1, 2, 3, 4]
+    assert curve[-1]["loss"] < curve[0]["loss"] / 4
+    translator = SpanTranslator.of(model)
+    unseen = [example for domain in Domain for example in generate(domain).unseen[::20]]
+    right = [bool(found) and found[0].query == e.query for e in unseen for found in [translator.translate(e.text)]]
+    assert sum(right) >= 0.6 * len(right)  # guessing the task alone is right in one of eight
+
+
+def test_the_same_seed_gives_the_same_model_and_another_another(trained: tuple[SpanModel, list[Epoch]]) -> None:
+    brief = replace(SMALL, epochs=1, commands=10, refusals=10)
+    one, two, other = (train(brief, seed=seed).network.state_dict() for seed in (5, 5, 6))
+    assert all(torch.equal(one[key], two[key]) for key in one)
+    assert not torch.equal(one["task.weight"], other["task.weight"])
+
+
+def test_training_leaves_the_callers_generator_alone() -> None:
+    torch.manual_seed(11)
+    expected = torch.rand(1)
+    torch.manual_seed(11)
+    train(replace(SMALL, epochs=1, commands=4, refusals=4), seed=0)
+    assert torch.equal(torch.rand(1), expected)
+
+
+def test_a_stored_model_says_the_same(trained: tuple[SpanModel, list[Epoch]], tmp_path: Path) -> None:
+    model, _ = trained
+    save_model(model, tmp_path, name="small")
+    again = load_model(tmp_path, name="small")
+    assert again.training == {"seed": 3, **{f: getattr(SMALL, f) for f in SMALL.__dataclass_fields__}}
+    for example in generate(Domain.MANIPULATION).unseen[::200]:
+        text = example.text
+        assert SpanTranslator.of(again).translate(text) == SpanTranslator.of(model).translate(text)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    save_model(again, tmp_path, name="small")
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_damaged_files_are_refused(trained: tuple[SpanModel, list[Epoch]], tmp_path: Path) -> None:
+    model, _ = trained
+    with pytest.raises(WeightsError, match="cannot be read"):
+        load_model(tmp_path)
+    save_model(model, tmp_path)
+    tensors, description = tmp_path / "cq-spans.safetensors", tmp_path / "cq-spans.json"
+    whole, data = tensors.read_bytes(), json.loads(description.read_text())
+    tensors.write_bytes(whole[:-100])
+    with pytest.raises(WeightsError, match="damaged"):
+        load_model(tmp_path)
+    tensors.write_bytes(whole)
+    for broken in ({**data, "temperature": 0}, {**data, "network": {**data["network"], "tasks": []}}, {"more": 1}):
+        description.write_text(json.dumps(broken))
+        with pytest.raises(WeightsError, match="description of a model"):
+            load_model(tmp_path)
+    for change in ({"encoder": 33}, {"tasks": [["pickup", 4]]}, {"words": ["the", "the"]}):
+        description.write_text(json.dumps({**data, "network": {**data["network"], **change}}))
+        with pytest.raises(WeightsError, match="fit together"):
+            load_model(tmp_path)
+
+
+def test_a_run_needs_an_epoch() -> None:
+    with pytest.raises(TrainingError):
+        train(replace(SMALL, epochs=0))
