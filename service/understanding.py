@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -23,7 +23,7 @@ from models.queries import Binding, ContextualQuery, GroundedTask, Template, par
 from models.world import Environment
 from service.lessons import read_template
 from service.services import Services
-from service.store import StoredExample, StoredTemplate
+from service.store import StoredExample, StoredTemplate, Transaction
 from service.translators import DEFAULT
 
 
@@ -76,8 +76,9 @@ def understand(
         formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
         return tuple(map(_of_formula, formulas[:candidates]))
     learned = services.translators.queries(translator).translate(text, candidates=wanted)
-    taught = _taught(services).translate(text, candidates=BEAM_WIDTH) if translator == DEFAULT else ()
-    templates = _templates(services, {found.query.task for found in (*learned, *taught)})
+    with services.store.read() as transaction:
+        taught = _taught(transaction).translate(text, candidates=BEAM_WIDTH) if translator == DEFAULT else ()
+        templates = transaction.templates.among({found.query.task for found in (*learned, *taught)})
 
     def template_of(task: str) -> Template | None:
         return read_template(templates[task]) if task in templates else None
@@ -121,17 +122,8 @@ def _of_formula(reading: FormulaReading) -> Understanding:
     return Understanding(None, reading.confidence, meaning, reading.refusal)
 
 
-def _templates(services: Services, tasks: Collection[str]) -> dict[str, StoredTemplate]:
-    if not tasks:
-        return {}
-    with services.store.read() as transaction:
-        return transaction.templates.among(sorted(tasks))
-
-
-def _taught(services: Services) -> TaughtTranslator:
-    with services.store.read() as transaction:
-        examples = transaction.templates.examples()
-    return _wordings(tuple(examples))
+def _taught(transaction: Transaction) -> TaughtTranslator:
+    return _wordings(tuple(transaction.templates.examples()))
 
 
 @lru_cache(maxsize=4)

@@ -2,7 +2,7 @@
 
 from service.store.environments import EnvironmentRepository, StoredEnvironment
 from service.store.policies import PolicyRepository, StoredPolicy
-from service.store.store import Store
+from service.store.store import Store, Transaction
 from service.store.templates import StoredExample, StoredPair, StoredTemplate, TemplateRepository
 
 __all__ = [
@@ -15,4 +15,5 @@ __all__ = [
     "StoredPolicy",
     "StoredTemplate",
     "TemplateRepository",
+    "Transaction",
 ]

@@ -64,7 +64,9 @@ class TemplateRepository:
 
     def among(self, tasks: Collection[str]) -> dict[str, StoredTemplate]:
         """The templates of those of the tasks that have one, by task."""
-        rows = self._connection.execute(select(templates).where(templates.c.task.in_(tasks)))
+        if not tasks:
+            return {}
+        rows = self._connection.execute(select(templates).where(templates.c.task.in_(sorted(tasks))))
         return {row.task: _read(row) for row in rows}
 
     def get(self, task: str) -> StoredTemplate:

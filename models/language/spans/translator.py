@@ -22,8 +22,6 @@ from models.world.spelling import Spelling
 
 SEQUENCES = 16
 """Tag sequences read out for each task class; different ones may say the same query, and their probabilities add up."""
-LEAST_UNDERSTOOD = 0.5
-"""The least probability, of all readings together, at which any is given: more likely than not."""
 LEAST_TASK = 1e-3
 """Task classes less probable than this are not read out."""
 
@@ -34,8 +32,8 @@ class SpanTranslator:
 
     The probability of a query is that of its task times that of the tag sequences that say it. When an argument is
     mentioned more than once it is named by the first mention. No reading is given when "no task" is more probable than
-    all readings together, when those are less probable than `LEAST_UNDERSTOOD`, or when the text has a word of
-    `NEGATIONS`. A text that may say two things is understood, if not well.
+    all readings together, or when the text has a word of `NEGATIONS`. A text that may say two things is understood, if
+    not well.
     """
 
     model: SpanModel
@@ -65,7 +63,7 @@ class SpanTranslator:
         if not spoken or not NEGATIONS.isdisjoint(spoken):
             return ()
         readings, refusal = self.read(spoken)
-        if understood(readings) < max(refusal, LEAST_UNDERSTOOD):
+        if understood(readings) <= refusal:
             return ()
         return readings[: min(candidates, BEAM_WIDTH)]
 

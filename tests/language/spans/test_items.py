@@ -4,7 +4,7 @@ import random
 
 import pytest
 import torch
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from models.language.dataset import Domain, fill, generate
@@ -31,6 +31,7 @@ def test_a_command_is_renamed_wherever_it_mentions_an_argument() -> None:
 
 
 @given(number=st.integers(0, 4649), seed=st.integers(0, 99))
+@settings(deadline=None)  # the first example makes the dataset
 def test_the_words_of_a_mention_are_the_argument(number: int, seed: int) -> None:
     example = generate(Domain.MANIPULATION).seen[number]
     generator = random.Random(seed)

