@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, Text, cast, delete, insert, select, update
+from sqlalchemy import Connection, Text, bindparam, cast, delete, insert, select, update
 
 from models.errors import Place
 from service.errors import EnvironmentExistsError, UnknownEnvironmentError
 from service.store.tables import environments
+
+_TEXT = select(cast(environments.c.data, Text)).where(environments.c.name == bindparam("name"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +40,7 @@ class EnvironmentRepository:
 
     def text(self, name: str) -> str:
         """The data of the environment as JSON text; raises `UnknownEnvironmentError`."""
-        found = self._connection.scalar(select(cast(environments.c.data, Text)).where(environments.c.name == name))
+        found = self._connection.scalar(_TEXT, {"name": name})
         if found is None:
             raise _unknown(name)
         return str(found)

@@ -6,10 +6,14 @@ from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from sqlalchemy import Connection, Row, delete, insert, select, update
+from sqlalchemy import Connection, Row, bindparam, delete, insert, select, update
 
 from service.errors import UnknownTemplateError
 from service.store.tables import templates
+
+# Every translation asks these two; built once, they take half the time.
+_AMONG = select(templates).where(templates.c.task.in_(bindparam("tasks", expanding=True)))
+_EXAMPLES = select(templates.c.examples).order_by(templates.c.task)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +70,7 @@ class TemplateRepository:
         """The templates of those of the tasks that have one, by task."""
         if not tasks:
             return {}
-        rows = self._connection.execute(select(templates).where(templates.c.task.in_(sorted(tasks))))
+        rows = self._connection.execute(_AMONG, {"tasks": sorted(tasks)})
         return {row.task: _read(row) for row in rows}
 
     def get(self, task: str) -> StoredTemplate:
@@ -85,7 +89,7 @@ class TemplateRepository:
 
     def examples(self) -> list[StoredExample]:
         """Every taught utterance, in order of task."""
-        rows = self._connection.scalars(select(templates.c.examples).order_by(templates.c.task))
+        rows = self._connection.scalars(_EXAMPLES)
         return [StoredExample(**example) for row in rows for example in row]
 
     def put(self, template: StoredTemplate) -> None:
