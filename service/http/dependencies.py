@@ -13,7 +13,7 @@ from service.services import Services
 T = TypeVar("T")
 
 
-def _services(request: Request) -> Services:
+async def _services(request: Request) -> Services:  # not in a thread: that costs more than it does
     services: Services = request.state.services
     return services
 
