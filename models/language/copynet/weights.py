@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import StrEnum
@@ -10,15 +9,13 @@ from importlib.resources import files
 from pathlib import Path
 
 import torch
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from safetensors import SafetensorError
+from pydantic import BaseModel, ConfigDict, Field
 from safetensors.torch import load as load_tensors
-from safetensors.torch import save as save_tensors
 
 from models.language.copynet.network import CopyNet, NetworkConfig
 from models.language.copynet.vocabulary import Vocabulary
 from models.language.dataset import Domain
-from models.language.errors import WeightsError
+from models.language.model_files import reading, write_model
 
 
 class System(StrEnum):
@@ -85,11 +82,7 @@ def save_model(model: Model, folder: Path) -> None:
         outputs=model.vocabulary.outputs,
         words=list(model.vocabulary.words),
     )
-    tensors = {key: tensor.contiguous() for key, tensor in sorted(model.network.state_dict().items())}
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{model.name}.safetensors").write_bytes(save_tensors(tensors))
-    text = json.dumps(data.model_dump(mode="json"), indent=1, ensure_ascii=False)
-    (folder / f"{model.name}.json").write_text(text + "\n", encoding="utf-8")
+    write_model(model.network, data, folder, model.name)
 
 
 def load_model(system: System | str, domain: Domain | str, folder: Path | None = None) -> Model:
@@ -101,7 +94,7 @@ def load_model(system: System | str, domain: Domain | str, folder: Path | None =
     system, domain = System(system), Domain(domain)
     name = model_name(system, domain)
     place = files("models.language") / "weights" if folder is None else folder
-    try:
+    with reading(name):
         data = _ModelData.model_validate_json((place / f"{name}.json").read_text(encoding="utf-8"))
         if (data.system, data.domain) != (system, domain):
             raise ValueError(f"it describes {model_name(data.system, data.domain)}")
@@ -110,12 +103,6 @@ def load_model(system: System | str, domain: Domain | str, folder: Path | None =
             network = build_network(vocabulary, **data.network.model_dump())
         tensors = load_tensors((place / f"{name}.safetensors").read_bytes())
         network.load_state_dict(tensors, assign=True)
-    except OSError as error:
-        raise WeightsError(f"the model {name} cannot be read: {error.strerror} ({error.filename})") from None
-    except ValidationError as error:
-        raise WeightsError(f"{name}.json is not the description of a model: {error.errors()[0]['msg']}") from None
-    except (ValueError, RuntimeError, SafetensorError) as error:
-        raise WeightsError(f"the files of the model {name} are damaged or do not fit together: {error}") from None
     return Model(network.eval(), vocabulary, system, domain, data.training)
 
 

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
 
 import torch
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from safetensors import SafetensorError
+from pydantic import BaseModel, ConfigDict, Field
 from safetensors.torch import load as load_tensors
-from safetensors.torch import save as save_tensors
 
-from models.language.errors import WeightsError
+from models.language.model_files import reading, write_model
 from models.language.spans.network import SpanConfig, SpanNet
 
 DEFAULT_NAME = "cq-spans"
@@ -63,11 +60,7 @@ def save_model(model: SpanModel, folder: Path, *, name: str = DEFAULT_NAME) -> N
         temperature=model.temperature,
         training=dict(model.training),
     )
-    tensors = {key: tensor.contiguous() for key, tensor in sorted(model.network.state_dict().items())}
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.safetensors").write_bytes(save_tensors(tensors))
-    text = json.dumps(data.model_dump(), indent=1, ensure_ascii=False)
-    (folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+    write_model(model.network, data, folder, name)
 
 
 def load_model(folder: Path | None = None, *, name: str = DEFAULT_NAME) -> SpanModel:
@@ -77,15 +70,9 @@ def load_model(folder: Path | None = None, *, name: str = DEFAULT_NAME) -> SpanM
         WeightsError: a file is missing or damaged, or the two do not fit together.
     """
     place = files("models.language") / "weights" if folder is None else folder
-    try:
+    with reading(name):
         data = _ModelData.model_validate_json((place / f"{name}.json").read_text(encoding="utf-8"))
         with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
             network = SpanNet(SpanConfig(**data.network.model_dump()))
         network.load_state_dict(load_tensors((place / f"{name}.safetensors").read_bytes()), assign=True)
-    except OSError as error:
-        raise WeightsError(f"the model {name} cannot be read: {error.strerror} ({error.filename})") from None
-    except ValidationError as error:
-        raise WeightsError(f"{name}.json is not the description of a model: {error.errors()[0]['msg']}") from None
-    except (ValueError, RuntimeError, SafetensorError) as error:
-        raise WeightsError(f"the files of the model {name} are damaged or do not fit together: {error}") from None
     return SpanModel(network.eval(), data.temperature, data.training)
