@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,14 +16,6 @@ from models.language.spans import SpanModel, load_model, save_model
 from models.language.spans.training import Epoch, Settings, train
 
 SMALL = Settings(epochs=8, commands=100, refusals=150, batch=16, embedding=24, projection=24, encoder=32, layers=1)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _one_thread() -> Iterator[None]:
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(threads)
 
 
 @pytest.fixture(scope="module")
