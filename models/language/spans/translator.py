@@ -10,10 +10,10 @@ from typing import Self
 
 import torch
 
-from models.language.spans.crf import best_sequences, log_partition
+from models.language.spans.decoding import TagScores, best_sequences, log_total
 from models.language.spans.lexicon import Lexicon, lexicon
 from models.language.spans.model import DEFAULT_NAME, SpanModel, load_model
-from models.language.spans.network import Scores, TextBatch
+from models.language.spans.network import TextBatch
 from models.language.spans.tags import OUTSIDE, Span, mentions_of
 from models.language.tokens import words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation
@@ -39,12 +39,17 @@ class SpanTranslator:
     model: SpanModel
     lexicon: Lexicon
     _numbers: Mapping[str, int] = field(repr=False)
+    _transitions: TagScores = field(repr=False)  # [K, L, L]
+    _start: TagScores = field(repr=False)  # [K, L]
 
     @classmethod
     def of(cls, model: SpanModel) -> Self:
         """The translator of a model."""
         vectors = lexicon() if model.training.get("lexicon", True) else lexicon().silent()
-        return cls(model, vectors, {word: number for number, word in enumerate(model.network.config.words, start=1)})
+        network = model.network
+        numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
+        transitions = network.transition.detach().double() / model.temperature + network.allowed
+        return cls(model, vectors, numbers, transitions.numpy(), network.allowed_start.double().numpy())
 
     @classmethod
     def load(cls, folder: Path | None = None, *, name: str = DEFAULT_NAME) -> Self:
@@ -74,14 +79,14 @@ class SpanTranslator:
         Words that wordings never use and that the best reading takes for names are taken for names by all: where there
         is no sledge hammer, "pick up the sledge hammer" does not mean just any hammer.
         """
-        network = self.model.network
-        scores = network(TextBatch.of([spoken], self._numbers, self.lexicon))
+        scores = self.model.network(TextBatch.of([spoken], self._numbers, self.lexicon))
+        emissions = scores.emissions[0].double().numpy() / self.model.temperature  # [S, K, L]
         tasks = (scores.tasks[0] / self.model.temperature).softmax(dim=0).tolist()  # [K + 1]
         found: dict[ContextualQuery, float] = {}
         named: dict[ContextualQuery, frozenset[int]] = {}
         for task, probability in enumerate(tasks[:-1]):
             if probability >= LEAST_TASK:
-                for query, part, places in self._queries(spoken, scores, task):
+                for query, part, places in self._queries(spoken, emissions[:, task], task):
                     found[query] = found.get(query, 0.0) + probability * part
                     named.setdefault(query, places)
         ranked = sorted(found, key=lambda query: (-found[query], str(query)))
@@ -89,17 +94,14 @@ class SpanTranslator:
         return tuple(Translation(query, min(1.0, found[query])) for query in kept), tasks[-1]
 
     def _queries(
-        self, spoken: Sequence[str], scores: Scores, task: int
+        self, spoken: Sequence[str], emissions: TagScores, task: int
     ) -> Iterator[tuple[ContextualQuery, float, frozenset[int]]]:
         """The queries of the best tag sequences of one task, the probabilities of the sequences, and the places of the
-        words that they take for names and that wordings never use.
+        words that they take for names and that wordings never use. `emissions` is [S, L].
         """
-        network, temperature = self.model.network, self.model.temperature
-        name, arity = network.config.tasks[task]
-        emissions = scores.emissions[0, :, task] / temperature  # [S, L]
-        transitions = network.transition[task] / temperature + network.allowed[task]  # [L, L]
-        start = network.allowed_start[task]  # [L]
-        total = float(log_partition(emissions[None], transitions[None], start[None], torch.tensor([len(spoken)])))
+        name, arity = self.model.network.config.tasks[task]
+        transitions, start = self._transitions[task], self._start[task]  # [L, L], [L]
+        total = log_total(emissions, transitions, start)
         for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES):
             query = _query(name, spoken, mentions_of(tags, arity))
             if query is not None:

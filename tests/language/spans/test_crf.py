@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from torch import Tensor
 
-from models.language.spans.crf import FORBIDDEN, best_sequences, log_partition, score
+from models.language.spans.crf import log_partition, score
 
 
 def random_field(seed: int, texts: int, length: int, tags: int) -> tuple[Tensor, Tensor, Tensor]:
@@ -45,24 +45,3 @@ def test_partition_and_scores_are_those_of_all_sequences(seed: int, length: int,
         sequence = list(scores)[seed % len(scores)]
         padded = torch.tensor([[*sequence, *[0] * (length - count)]] * 2)
         assert float(score(emissions, transitions, start, lengths, padded)[text]) == pytest.approx(scores[sequence])
-
-
-@given(seed=st.integers(0, 10_000), length=st.integers(1, 5), tags=st.integers(1, 3), count=st.integers(1, 12))
-@settings(max_examples=40, deadline=None)
-def test_best_sequences_are_the_best_of_all_in_order(seed: int, length: int, tags: int, count: int) -> None:
-    emissions, transitions, start = (tensor[0] for tensor in random_field(seed, 1, length, tags))
-    every = sorted(
-        (by_hand(emissions, transitions, start, sequence) for sequence in product(range(tags), repeat=length)),
-        reverse=True,
-    )
-    found = best_sequences(emissions, transitions, start, count=count)
-    assert [value for value, _ in found] == pytest.approx(every[:count])
-    assert len({sequence for _, sequence in found}) == len(found)
-    for value, sequence in found:
-        assert by_hand(emissions, transitions, start, sequence) == pytest.approx(value)
-
-
-def test_forbidden_moves_are_never_made() -> None:
-    transitions = torch.tensor([[0.0, FORBIDDEN], [0.0, 0.0]])  # never from 0 to 1
-    found = best_sequences(torch.zeros(3, 2), transitions, torch.zeros(2), count=8)
-    assert sorted(sequence for _, sequence in found) == [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from models.language.dataset import Domain, fill, generate
-from models.language.spans.crf import best_sequences
+from models.language.spans.decoding import best_sequences
 from models.language.spans.items import Item, batches, likelihood
 from models.language.spans.lexicon import lexicon
 from models.language.spans.network import SpanConfig, SpanNet, TextBatch
@@ -64,9 +64,12 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
     numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
     scores = network(TextBatch.of([text], numbers, lexicon()))
     for task, (name, arity) in enumerate(network.config.tasks):
-        transitions = network.transition[task] + network.allowed[task]
-        every = best_sequences(scores.emissions[0, :, task], transitions, network.allowed_start[task], count=10_000)
-        for _, tags in every:
+        field = (
+            scores.emissions[0, :, task],
+            network.transition[task] + network.allowed[task],
+            network.allowed_start[task],
+        )
+        for _, tags in best_sequences(*(tensor.double().numpy() for tensor in field), count=10_000):
             item = Item(text, name, mentions_of(tags, arity))
             total += float(likelihood(network, [item], lexicon()).exp())
     assert total == pytest.approx(1.0, abs=1e-4)
