@@ -1,9 +1,8 @@
 """Linear temporal logic over propositional functions: reading, writing, comparing, and automata."""
 
-from models.logic.automaton import Automaton
+from models.logic.automaton import Automaton, Pair
 from models.logic.dialect import Dialect
 from models.logic.errors import (
-    FormulaNotCosafeError,
     FormulaSyntaxError,
     FormulaTooLargeError,
     InvalidNameError,
@@ -37,15 +36,8 @@ from models.logic.formula import (
 from models.logic.parser import MAX_TEXT, parse
 from models.logic.printer import atom_text, to_text
 from models.logic.simpler import simplify
-from models.logic.spot import (
-    MAX_ATOMS,
-    MAX_TABLE,
-    equivalent,
-    is_cosafe,
-    is_satisfiable,
-    is_valid,
-    translate,
-)
+from models.logic.spot import MAX_ATOMS, equivalent, is_satisfiable, is_valid
+from models.logic.translation import MAX_TABLE, is_cosafe, translate
 
 __all__ = [
     "FALSE",
@@ -61,13 +53,13 @@ __all__ = [
     "Constant",
     "Dialect",
     "Formula",
-    "FormulaNotCosafeError",
     "FormulaSyntaxError",
     "FormulaTooLargeError",
     "InvalidNameError",
     "Name",
     "Nary",
     "Op",
+    "Pair",
     "Parameter",
     "SpotMissingError",
     "Term",

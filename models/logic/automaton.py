@@ -1,9 +1,10 @@
-"""The deterministic automaton of a co-safe formula, as arrays."""
+"""The deterministic automaton of a formula, as arrays."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,26 +12,39 @@ from numpy.typing import NDArray
 from models.logic.formula import Atom, Formula
 
 
+class Pair(NamedTuple):
+    """One way to accept: no mark of `finite` is seen for ever, and that of `infinite` is; both are sets of bits.
+
+    `infinite` has one bit at most. 0 stands for nothing to avoid, or nothing to meet.
+    """
+
+    finite: int
+    infinite: int
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Automaton:
-    """The minimal complete deterministic automaton of `formula` over the letters of `atoms`.
+    """A complete deterministic Rabin automaton of `formula` over the letters of `atoms`, marks on its transitions.
 
     A letter is an integer whose bit `i` says whether `atoms[i]` holds. The automaton reads the label of the initial
     state first, then the label of each state entered. States are numbered in the order in which a breadth-first
     search with ascending letters finds them, so equal formulas over equal atoms give equal arrays. At most one state
-    accepts and at most one rejects; each has itself as its only successor. The arrays cannot be written to.
+    accepts and at most one rejects; each has itself as its only successor. A run that stays in the others for ever is
+    accepted when it satisfies one of the pairs. The arrays cannot be written to.
     """
 
     formula: Formula
     atoms: tuple[Atom, ...]
     initial: int
     successors: NDArray[np.int32]  # [states, 2 ** len(atoms)]
+    marks: NDArray[np.uint32]  # [states, 2 ** len(atoms)]  bit i: the transition carries mark i
+    acceptance: tuple[Pair, ...]  # none for a co-safe formula
     accepting: NDArray[np.bool_]  # [states]  the formula holds whatever follows; closed under successors
     rejecting: NDArray[np.bool_]  # [states]  the formula fails whatever follows; closed under successors
     hoa: str  # the same automaton in the Hanoi Omega-Automata format; its propositions are the atoms as text
 
     def __post_init__(self) -> None:
-        for array in (self.successors, self.accepting, self.rejecting):
+        for array in (self.successors, self.marks, self.accepting, self.rejecting):
             array.setflags(write=False)
 
     @property

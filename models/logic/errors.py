@@ -3,7 +3,6 @@
 CqltlError
 ├── FormulaSyntaxError      the text is not a formula: line, column, caret
 ├── FormulaTooLargeError    text, depth, size, atoms or automaton beyond a limit
-├── FormulaNotCosafeError   the formula cannot be finished at the end of a finite trace
 ├── InvalidNameError        a name that is empty or holds control characters
 └── SpotMissingError        Spot is not installed on this machine
 """
@@ -33,12 +32,6 @@ class FormulaTooLargeError(CqltlError):
     """The formula or its automaton is beyond a limit."""
 
     slug = "formula-too-large"
-
-
-class FormulaNotCosafeError(CqltlError):
-    """No finite trace can finish the formula, so this version cannot plan for it."""
-
-    slug = "formula-not-cosafe"
 
 
 class InvalidNameError(CqltlError):

@@ -22,8 +22,8 @@ from models.logic import (
     Atom,
     Automaton,
     Formula,
-    FormulaNotCosafeError,
     FormulaTooLargeError,
+    Pair,
     SpotMissingError,
     Unary,
     atoms,
@@ -52,9 +52,16 @@ def number(automaton: Automaton, letter: Letter) -> int:
 
 
 def accepts(automaton: Automaton, prefix: list[Letter], loop: list[Letter]) -> bool:
-    """Whether the run on prefix · loop^ω gets to the accepting state."""
-    word = prefix + loop * (automaton.states + 1)
-    return bool(automaton.accepting[automaton.run(number(automaton, letter) for letter in word)[-1]])
+    """Whether the run on prefix · loop^ω gets to the accepting state, or satisfies one of the pairs for ever."""
+    word = prefix + loop * automaton.states
+    state = automaton.run(number(automaton, letter) for letter in word)[-1]
+    if automaton.accepting[state] or automaton.rejecting[state]:
+        return bool(automaton.accepting[state])
+    marks = 0
+    for letter in loop * automaton.states:  # at least once around the cycle that the run has come to
+        marks |= int(automaton.marks[state, number(automaton, letter)])
+        state = int(automaton.successors[state, number(automaton, letter)])
+    return any(not marks & pair.finite and marks & pair.infinite == pair.infinite for pair in automaton.acceptance)
 
 
 def check_shape(automaton: Automaton) -> None:
@@ -73,7 +80,8 @@ def check_shape(automaton: Automaton) -> None:
     can_accept = automaton.accepting.copy()
     for _ in range(count):
         can_accept |= can_accept[automaton.successors].any(axis=1)
-    assert (can_accept == ~automaton.rejecting).all()
+    if not automaton.acceptance:
+        assert (can_accept == ~automaton.rejecting).all()
     met = [0, *automaton.successors[0].tolist()]
     for state in range(1, count):
         met.extend(automaton.successors[state].tolist())
@@ -97,13 +105,11 @@ def test_the_automaton_accepts_just_the_words_that_satisfy_the_formula(
 def test_cosafety_is_decided_on_the_language(formula: Formula, tries: list[tuple[list[Letter], list[Letter]]]) -> None:
     judged = spot.mp_class(spot.formula(to_text(formula))) in ("B", "G")
     assert is_cosafe(formula) == judged
-    if judged:
-        automaton = translate(formula)
-        for prefix, loop in tries:
-            assert accepts(automaton, prefix, loop) == holds(formula, prefix, loop)
-    else:
-        with pytest.raises(FormulaNotCosafeError, match="is not co-safe"):
-            translate(formula)
+    automaton = translate(formula)
+    check_shape(automaton)
+    assert (automaton.acceptance == ()) == judged
+    for prefix, loop in tries:
+        assert accepts(automaton, prefix, loop) == holds(formula, prefix, loop)
 
 
 @given(formulas(plain_atoms, max_leaves=6), st.lists(words, min_size=1, max_size=10))
@@ -167,24 +173,28 @@ def test_a_valid_formula_accepts_at_once(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "states", "acceptance"),
     [
-        ("G a", "safety"),
-        ("a W b", "safety"),
-        ("F p & G !q", "obligation"),
-        ("G F a", "recurrence"),
-        ("G (a -> F b)", "recurrence"),
-        ("F G a", "persistence"),
-        ("G F a & F G b", "reactivity"),
+        ("F (a & F b)", 3, ()),
+        ("G a", 2, (Pair(0, 1),)),  # kept for ever, or the state that rejects
+        ("F p & G !q", 3, (Pair(0, 1),)),
+        ("G F a", 1, (Pair(0, 1),)),
+        ("G F a & G F b", 2, (Pair(0, 1),)),  # which of the two is waited for
+        ("F G a", 1, (Pair(1, 0),)),
+        ("G F a -> G F b", 1, (Pair(0, 1), Pair(2, 0))),
     ],
 )
-def test_what_is_not_cosafe_is_refused_with_its_kind(text: str, words: str) -> None:
-    with pytest.raises(FormulaNotCosafeError) as caught:
-        translate(parse(text))
-    assert caught.value.slug == "formula-not-cosafe"
-    assert text in caught.value.detail
-    assert words in caught.value.detail
-    assert not is_cosafe(parse(text))
+def test_acceptance_by_class(text: str, states: int, acceptance: tuple[Pair, ...]) -> None:
+    automaton = translate(parse(text))
+    check_shape(automaton)
+    assert (automaton.states, automaton.acceptance) == (states, acceptance)
+    assert is_cosafe(parse(text)) == (acceptance == ())
+
+
+@given(formulas(plain_atoms, max_leaves=6))
+@settings(max_examples=100, deadline=None)
+def test_the_hoa_text_has_the_language_of_the_formula(formula: Formula) -> None:
+    assert spot.are_equivalent(spot.automaton(translate(formula).hoa), spot.formula(to_text(formula)))
 
 
 def test_the_four_meanings_of_avoid() -> None:
