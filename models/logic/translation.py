@@ -280,7 +280,8 @@ def _pairs(graph: Any, edges: _Edges) -> tuple[Pair, ...]:
 def _hoa(made: _Made, vocabulary: Vocabulary, edges: _Edges) -> str:
     """The renumbered automaton in the HOA format, with the atoms as the names of its propositions."""
     spot = library()
-    acceptance, none, again = made.graph.acc(), spot.mark_t([]), edges.recurring().any(axis=1).tolist()
+    acceptance, none = made.graph.acc(), spot.mark_t([])
+    again = set(np.flatnonzero(edges.recurring().any(axis=1)).tolist())
     renumbered = spot.make_twa_graph(made.graph.get_dict())
     for index in range(len(vocabulary.atoms)):
         renumbered.register_ap(f"p{index}")
@@ -293,7 +294,7 @@ def _hoa(made: _Made, vocabulary: Vocabulary, edges: _Edges) -> str:
             continue
         leaving = [(int(edges.number[edge.dst]), edge.cond, edge.acc) for edge in made.graph.out(origin)]
         for target, condition, marks in sorted(leaving, key=itemgetter(0)):
-            renumbered.new_edge(state, target, condition, marks if again[state] else none)
+            renumbered.new_edge(state, target, condition, marks if state in again else none)
     renumbered.prop_state_acc(made.graph.prop_state_acc())
     header = "AP: " + " ".join([str(len(vocabulary.atoms)), *map(_hoa_name, vocabulary.atoms)])
     lines = renumbered.to_str("hoa").split("\n")

@@ -1,9 +1,11 @@
 """Planning: the best policy for a formula in a world.
 
-`plan` maximises the probability of satisfying a co-safe formula and, among the policies that do, minimises
-the expected number of steps until the outcome is decided. Values come with bounds that hold.
+`plan` maximises (or minimises) the probability of satisfying a formula of LTL and, among the policies that do,
+minimises the expected number of steps until the outcome is decided. Values come with bounds that hold; `check` works
+a policy's claims out again.
 """
 
+from models.planning.check import Check, check
 from models.planning.errors import (
     DeviceUnavailableError,
     InvalidMemoryError,
@@ -21,6 +23,7 @@ __all__ = [
     "INVALID",
     "NOTHING",
     "WAIT",
+    "Check",
     "DeviceUnavailableError",
     "InvalidMemoryError",
     "InvalidPolicyError",
@@ -34,6 +37,7 @@ __all__ = [
     "Step",
     "Trajectory",
     "TrajectoryStep",
+    "check",
     "from_bytes",
     "plan",
     "simulate",

@@ -15,18 +15,22 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Choices:
-    """Choices of `unknowns` unknowns: value of choice c = constant[c] + Σ probability · x[successor].
+    """Choices of n unknowns, sorted by unknown: value of choice c = constant[c] + Σ probability · x[successor].
 
     An unknown's choices are ranked by their position here. Outcomes whose value is known are in `constant`
     already.
     """
 
-    unknowns: int
-    owner: NDArray[np.int32]  # [c]  every unknown has at least one choice
+    first_choice: NDArray[np.int32]  # [n + 1]  every unknown has at least one choice
     constant: Vector  # [c]
     first_outcome: NDArray[np.int32]  # [c + 1]
     successor: NDArray[np.int32]  # [e]
     probability: Vector  # [e]
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns, n."""
+        return len(self.first_choice) - 1
 
     @property
     def roundoff(self) -> float:
@@ -34,15 +38,13 @@ class Choices:
         longest = int(np.diff(self.first_outcome).max(initial=0))
         return (longest + 8) * 2.0**-53
 
-    def restricted(self, chosen: NDArray[np.integer]) -> Choices:
-        """Only the choices `chosen`, one or more for each unknown."""
-        rows = chosen.astype(np.int32)
-        outcome = spans(self.first_outcome, rows)
+    def only(self, chosen: NDArray[np.int32]) -> Choices:
+        """The chain of a policy: `chosen` [n] is one choice of each unknown."""
+        outcome = spans(self.first_outcome, chosen)
         return Choices(
-            unknowns=self.unknowns,
-            owner=self.owner[rows],
-            constant=self.constant[rows],
-            first_outcome=offsets(np.diff(self.first_outcome)[rows]),
+            first_choice=np.arange(self.unknowns + 1, dtype=np.int32),
+            constant=self.constant[chosen],
+            first_outcome=offsets(np.diff(self.first_outcome)[chosen]),
             successor=self.successor[outcome],
             probability=self.probability[outcome],
         )
@@ -55,15 +57,19 @@ def gather(
     unknown: NDArray[np.int32],
     known: Vector,
     owner: NDArray[np.int32],
-    cost: float,
-) -> Choices:
-    """The product's choices `chosen` as a numeric problem.
+    cost: float | Vector,
+) -> tuple[Choices, NDArray[np.int32]]:
+    """The product's choices `chosen` as a numeric problem, and the product's choice that each of its choices is.
 
     `unknown` ([n + 2]) numbers the unknown of each node and column, -1 where `known` ([n + 2]) gives its
     value instead; several nodes may share one unknown. `owner` is the unknown that each of `chosen` belongs
-    to; `cost` is added to every choice.
+    to; `cost`, one or one for each of `chosen`, is added.
     """
     rows = chosen.astype(np.int32)
+    if len(owner) and (np.diff(owner) < 0).any():
+        order = np.argsort(owner, kind="stable")
+        rows, owner = rows[order], owner[order]
+        cost = cost if isinstance(cost, float) else cost[order]
     outcome = spans(product.first_outcome, rows)
     row = np.repeat(np.arange(len(rows), dtype=np.int32), np.diff(product.first_outcome)[rows])
     node = product.successor[outcome]
@@ -73,11 +79,11 @@ def gather(
     settled = ~open_
     share = probability[settled] * known[node[settled]]
     constant: Vector = cost + np.bincount(row[settled], weights=share, minlength=len(rows)).astype(np.float64)
-    return Choices(
-        unknowns=int(owner.max(initial=-1)) + 1,
-        owner=owner,
+    problem = Choices(
+        first_choice=offsets(np.bincount(owner)),
         constant=constant,
         first_outcome=offsets(np.bincount(row[open_], minlength=len(rows))),
         successor=successor[open_],
         probability=probability[open_],
     )
+    return problem, rows

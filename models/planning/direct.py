@@ -16,7 +16,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from models.planning.choices import Choices, Vector
-from models.planning.ragged import offsets
+from models.planning.ragged import owners
 
 DIRECT_LIMIT = 2_000
 """Unknowns up to which a system may be factorised: dense in the worst case, 32 MB and about a second."""
@@ -42,12 +42,11 @@ class Improver:
     """
 
     def __init__(self, choices: Choices, *, maximise: bool) -> None:
-        shape = (len(choices.owner), choices.unknowns)
+        shape = (len(choices.constant), choices.unknowns)
         entries = (choices.probability, choices.successor, choices.first_outcome)
         self.choices = choices
         self._matrix = sparse.csr_array(entries, shape=shape)
-        self._by_owner = np.argsort(choices.owner, kind="stable").astype(np.int32)
-        self._first = offsets(np.bincount(choices.owner, minlength=choices.unknowns))
+        self._first = choices.first_choice
         self._sign = 1.0 if maximise else -1.0
 
     def evaluate(self, chosen: NDArray[np.int32]) -> Vector | None:
@@ -66,12 +65,11 @@ class Improver:
 
     def best(self, worth: Vector) -> tuple[Vector, NDArray[np.int32]]:
         """For each unknown the best of `worth` and the first choice that has it."""
-        ordered = self._sign * worth[self._by_owner]
+        ordered = self._sign * worth
         top = np.maximum.reduceat(ordered, self._first[:-1])
         hits = np.flatnonzero(ordered == np.repeat(top, np.diff(self._first)))
-        owner = self.choices.owner[self._by_owner[hits]]
-        first = hits[np.unique(owner, return_index=True)[1]]
-        return self._sign * top, self._by_owner[first]
+        first = np.unique(owners(self._first)[hits], return_index=True)[1]
+        return self._sign * top, hits[first].astype(np.int32)
 
     def improve(self, chosen: NDArray[np.int32], alive: Callable[[], None]) -> Proposal | None:
         """Improve a policy until no choice is strictly better; `alive` is called in every round."""
@@ -100,7 +98,7 @@ def probability_bounds(
     """
     improver = Improver(choices, maximise=True)
     proposal = improver.improve(chosen, alive)
-    timer = Improver(replace(choices, constant=np.ones(len(choices.owner))), maximise=True)
+    timer = Improver(replace(choices, constant=np.ones(len(choices.constant))), maximise=True)
     time = None if proposal is None else timer.improve(proposal.chosen, alive)
     if proposal is None or time is None:
         return None

@@ -21,15 +21,23 @@ from models.planning.ragged import spans
 
 
 def end_components(
-    product: Product, graph: Predecessors, inside: Mask, *, progress: Progress = no_progress
+    product: Product,
+    graph: Predecessors,
+    inside: Mask,
+    *,
+    without: Mask | None = None,
+    progress: Progress = no_progress,
 ) -> tuple[NDArray[np.int32], Mask]:
-    """The maximal end components of the nodes in `inside` ([n + 2]).
+    """The maximal end components of the nodes in `inside` ([n + 2]) and, but for those in `without` ([C]), their
+    choices.
 
     Returns the component of each node ([n], -1 outside all of them) and which choices never leave one ([C]).
     """
     nodes, owner = product.nodes, graph.owner
     pruning = Pruning(graph, inside.copy(), inside[owner])
     pruning.remove(np.flatnonzero(~inside).astype(np.int32), progress)
+    if without is not None:
+        pruning.forbid(np.flatnonzero(without & pruning.allowed).astype(np.int32), progress)
     label = np.full(nodes, -1, dtype=np.int32)
     for number in count(1):
         choices = np.flatnonzero(pruning.allowed).astype(np.int32)

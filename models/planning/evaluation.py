@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
-from models.planning.bellman import Bellman, threads
 from models.planning.choices import Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
+from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
@@ -53,16 +52,15 @@ def attained_probability(
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
     unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
     owner = np.arange(len(nodes), dtype=np.int32)
-    chain = gather(product, steps.chosen[nodes], unknown=unknown, known=value, owner=owner, cost=0.0)
+    chain, _ = gather(product, steps.chosen[nodes], unknown=unknown, known=value, owner=owner, cost=0.0)
     limit = options.max_sweeps
     change, x = np.inf, probability.estimate[nodes]
     longest = float(steps.upper[nodes].max())
-    operator = Bellman(chain, maximise=True, device=options.device)
-    with threads(operator.outcomes):
-        change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
-        if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
-            solved = Improver(chain, maximise=True).evaluate(owner)
-            change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
+    operator = operator_of(chain, options.device)
+    change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
+    if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
+        solved = Improver(chain, maximise=True).evaluate(owner)
+        change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
     progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
     value[nodes] = x
     error = (change + chain.roundoff) * steps.upper[nodes]
@@ -75,19 +73,15 @@ def _watched(unknown: NDArray[np.int32], node: int, x: Vector) -> tuple[float, f
     return value, value
 
 
-def _settle(operator: Bellman, start: Vector, small: float, sweeps: int) -> tuple[float, Vector]:
-    """Iterate until a sweep changes nothing by more than `small` or rounding; the last change and the vector
-    before it.
+def _settle(operator: Operator, start: Vector, small: float, sweeps: int) -> tuple[float, Vector]:
+    """Iterate until a sweep changes nothing by more than `small` or rounding; how far one step of the chain may
+    change the vector, and the vector.
     """
     x = operator.vector(start)
-    out = torch.empty_like(x)
     floor = operator.choices.roundoff
     change = np.inf
-    for sweep in range(sweeps):
-        if sweep:
-            x, out = out, x
-        operator.sweep(x, out)
-        change = float((out - x).abs().max())
+    for sweep in range(1, sweeps + 1):
+        change = operator.settle(x, sweep)
         if change <= max(small, floor):
             break
     return change, operator.numpy(x)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 Device = Literal["auto", "cpu", "cuda"]
+Objective = Literal["max", "min"]
 
 MOST_BYTES = 64 * 2**30
 """The largest `max_bytes`: a model that fits has fewer than 2^31 outcomes, which are numbered in 32 bits."""
@@ -18,7 +19,8 @@ class Options:
     `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values
     are computed more exactly than that, because ties between actions are decided on them. A plan that has not
     reached `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto"
-    takes a CUDA device for large models when there is one.
+    takes a CUDA device for large models when there is one. `objective` "min" asks for the policy under which the formula
+    is least probable.
     """
 
     epsilon: float = 1e-6
@@ -26,6 +28,7 @@ class Options:
     max_bytes: int = 8 * 2**30
     max_sweeps: int = 1_000_000
     device: Device = "auto"
+    objective: Objective = "max"
 
     def __post_init__(self) -> None:
         if not 0 < self.epsilon < 1:
@@ -36,9 +39,11 @@ class Options:
             raise ValueError(f"max_bytes is at most {MOST_BYTES}")
         if self.device not in ("auto", "cpu", "cuda"):
             raise ValueError("device is auto, cpu or cuda")
+        if self.objective not in ("max", "min"):
+            raise ValueError("objective is max or min")
 
 
-Stage = Literal["compile", "graph", "probability", "steps", "evaluate"]
+Stage = Literal["compile", "graph", "rounds", "probability", "steps", "evaluate"]
 
 
 class Progress(Protocol):

@@ -1,9 +1,9 @@
 """A policy: what a robot does in every state with every memory.
 
 The robot's loop: observe the state s, look up (memory, s), keep the memory that comes back, do the action,
-observe again. Memory starts at `initial_memory`. The lookup reads the label of s, so arrays are indexed by
-the memory *before* reading. Where no action is enabled there is none to do, though nothing is decided: the
-robot lets one step pass and observes again.
+observe again. Memory starts at `initial_memory`: it is the state of the formula's automaton. The lookup reads the
+label of s, `after = successors[memory, letter[s]]`, and what to do stands in the row of `after`. Where no action is
+enabled there is none to do, though nothing is decided: the robot lets one step pass and observes again.
 """
 
 from __future__ import annotations
@@ -30,27 +30,27 @@ WAIT = -2
 """In `action`: no action is enabled; let one step pass."""
 
 INVALID = -1
-"""In `next_memory`: the state breaks the world's constraints."""
+"""In `letter`: the state breaks the world's constraints."""
 
 MAX_PLACES = 20
 """Most attributes named that a state leaves out."""
 
-Status = Literal["running", "satisfied", "lost"]
+Status = Literal["running", "sustaining", "satisfied", "lost"]
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
     """What to do now.
 
-    `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "lost" (it cannot be satisfied
-    from here, `probability` is 0 and `action` None: a robot should stop and ask for another task) or
-    "running". `action` may be None while the status is "running": the world enables no action in this state,
+    `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "sustaining" (the formula holds if the
+    robot goes on for ever as the policy says), "lost" (it cannot be satisfied from here, `probability` is 0 and
+    `action` None: a robot should stop and ask for another task) or "running". `action` may be None while the status is "running" or "sustaining": the world enables no action in this state,
     so there is nothing to do but to let one step pass, then observe and ask again with the new memory. Hence
     None alone does not mean the end; `status` does. `expected_steps` counts the steps, waits included, until
-    the status is one of the first two; `probability` is that of "satisfied".
+    the status is another than "running"; `probability` is that of satisfying the formula.
     """
 
-    action: str | None  # None: wait one step if `status` is "running", else stop
+    action: str | None  # None: stop if the status is "satisfied" or "lost", else wait one step
     memory: int  # after reading the label of the state: the one to send with the next state
     probability: float
     expected_steps: float
@@ -60,10 +60,11 @@ class Step:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Policy:
-    """Arrays over (memory before reading, state), and the names to read them with.
+    """Arrays over states, for each memory that decides nothing, and the names to read them with.
 
     Every product state has its entry, also those that the initial state never leads to, so a robot that was
-    moved may carry on from where it is. Q memories, S states.
+    moved may carry on from where it is. Q memories, L letters, S states, R rows: the memories in which the formula is
+    neither sure to hold nor sure to fail.
     """
 
     variables: tuple[Variable, ...]  # the digits of a state index, the most significant first
@@ -73,21 +74,40 @@ class Policy:
     hoa: str  # the automaton
     initial_state: int
     initial_memory: int
+    successors: NDArray[np.int32]  # [Q, L]
     accepted: NDArray[np.bool_]  # [Q]  the formula holds whatever follows
-    action: NDArray[np.int32]  # [Q, S]  index into `actions`, NOTHING or WAIT
-    next_memory: NDArray[np.int32]  # [Q, S]  after reading the label of the state, or INVALID
-    probability: NDArray[np.float64]  # [Q, S]  of satisfying the formula under this policy
-    expected_steps: NDArray[np.float64]  # [Q, S]  until the outcome is decided under this policy
+    row: NDArray[np.int32]  # [Q]  the row of a memory, -1 where it is decided
+    letter: NDArray[np.signedinteger]  # [S]  what is read in a state, or INVALID
+    action: NDArray[np.signedinteger]  # [R, S] after reading; index into `actions`, NOTHING or WAIT
+    probability: NDArray[np.float64]  # [R, S] after reading; of satisfying the formula under this policy
+    expected_steps: NDArray[np.float64]  # [R, S] after reading; until it is decided, or only has to be kept up
 
     @property
     def states(self) -> int:
         """Number of state indices, S."""
-        return int(self.action.shape[1])
+        return len(self.letter)
 
     @property
     def memories(self) -> int:
         """Number of memories, Q."""
-        return int(self.action.shape[0])
+        return len(self.row)
+
+    def after(self, state: NDArray[np.int64], memory: NDArray[np.int64]) -> NDArray[np.int32]:
+        """The memories after reading valid states; shapes broadcast."""
+        after: NDArray[np.int32] = self.successors[memory, self.letter[state]]
+        return after
+
+    def acting(self, state: NDArray[np.int64], after: NDArray[np.int32]) -> NDArray[np.int64]:
+        """Index into `actions`, NOTHING or WAIT, by state and memory after reading it; shapes broadcast."""
+        row = self.row[after]
+        found = np.where(row >= 0, self.action[row, state] if len(self.action) else NOTHING, NOTHING)
+        return found.astype(np.int64)
+
+    def sustaining(self, state: NDArray[np.int64], after: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """Whether the formula holds if the policy is followed for ever; arguments as for `acting`."""
+        settled = self.expected_steps[self.row[after], state] == 0 if len(self.action) else False
+        going: NDArray[np.bool_] = settled & (self.acting(state, after) != NOTHING)
+        return going
 
     def encode(self, state: State, *, base: int | None = None) -> int:
         """The index of a state; what it leaves out is taken from `base` (default: the initial state).
@@ -113,17 +133,20 @@ class Policy:
             raise InvalidMemoryError(f"memory {memory} is not one of 0 to {self.memories - 1}")
         index = self._observed(state) if isinstance(state, Mapping) else state
         self._check(index)
-        action = int(self.action[memory, index])
-        probability = float(self.probability[memory, index])
-        after = int(self.next_memory[memory, index])
-        done = bool(self.accepted[after])
+        after = int(self.successors[memory, self.letter[index]])
+        row = int(self.row[after])
+        if row < 0:
+            done = bool(self.accepted[after])
+            return Step(None, after, float(done), 0.0, done, "satisfied" if done else "lost")
+        action = int(self.action[row, index])
+        steps = float(self.expected_steps[row, index])
         return Step(
             action=self.actions[action] if action >= 0 else None,
             memory=after,
-            probability=probability,
-            expected_steps=float(self.expected_steps[memory, index]),
-            done=done,
-            status="satisfied" if done else "running" if action != NOTHING else "lost",
+            probability=float(self.probability[row, index]),
+            expected_steps=steps,
+            done=False,
+            status="lost" if action == NOTHING else "sustaining" if steps == 0 else "running",
         )
 
     def _index(self, state: State, base: int | None) -> int:
@@ -147,5 +170,5 @@ class Policy:
     def _check(self, index: int) -> None:
         if not 0 <= index < self.states:
             raise StateError(f"state {index} is not one of 0 to {self.states - 1}")
-        if self.next_memory[0, index] == INVALID:
+        if self.letter[index] == INVALID:
             raise StateError(f"the world does not allow this state: {self.decode(index)}")

@@ -1,9 +1,9 @@
 """Policies as bytes and as JSON: the same policy always gives the same bytes.
 
-Bytes: the magic `cqltl\\0p1`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8,
-keys sorted), then one zlib stream of the arrays `action` and `next_memory` (int32), `probability` and
-`expected_steps` (float64), each little-endian, [memories, states], row by row. No clock, host or library
-version goes in.
+Bytes: the magic `cqltl\\0p2`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8,
+keys sorted), then one zlib stream of the arrays `letter` ([states]), `action` ([rows, states]; both signed integers of
+as many bytes as the header says), `probability` and `expected_steps` ([rows, states], float64), each little-endian, row
+by row. No clock, host or library version goes in.
 
 JSON: see `to_json`.
 """
@@ -23,19 +23,32 @@ from models.planning.errors import InvalidPolicyError
 from models.planning.policy import Policy
 from models.world import Variable
 
-MAGIC = b"cqltl\0p1"
+MAGIC = b"cqltl\0p2"
 LEVEL = 1
 """zlib level: on these arrays higher ones cost several times the time for a few percent."""
 
-_ARRAYS = (("action", "<i4"), ("next_memory", "<i4"), ("probability", "<f8"), ("expected_steps", "<f8"))
+
+def smallest(array: NDArray[np.integer]) -> NDArray[np.signedinteger]:
+    """The same numbers in the narrowest signed type that holds them."""
+    low, high = int(array.min(initial=0)), int(array.max(initial=0))
+    kind = next(k for k in (np.int8, np.int16, np.int32) if np.iinfo(k).min <= low and high <= np.iinfo(k).max)
+    return array.astype(kind)
 
 
 def to_bytes(policy: Policy) -> bytes:
     """Store a policy; `from_bytes` reads it back equal."""
     header = json.dumps(_header(policy), sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()
     stream = zlib.compressobj(LEVEL)
-    body = [stream.compress(np.ascontiguousarray(getattr(policy, name), dtype=kind).data) for name, kind in _ARRAYS]
+    body = [stream.compress(_little(array).data) for array in _arrays(policy)]
     return b"".join([MAGIC, struct.pack("<I", len(header)), header, *body, stream.flush()])
+
+
+def _arrays(policy: Policy) -> tuple[NDArray[Any], ...]:
+    return policy.letter, policy.action, policy.probability, policy.expected_steps
+
+
+def _little(array: NDArray[Any]) -> NDArray[Any]:
+    return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
 
 
 def from_bytes(data: bytes) -> Policy:
@@ -46,10 +59,12 @@ def from_bytes(data: bytes) -> Policy:
     end = start + struct.unpack("<I", data[len(MAGIC) : start])[0]
     try:
         header = json.loads(data[start:end])
-        memories = len(header["accepted"])
         variables = tuple(Variable(v["object"], v["attribute"], tuple(v["values"])) for v in header["variables"])
-        shape = (memories, codec.size(variables))
-        arrays = _read_arrays(data[end:], shape)
+        automaton = header["automaton"]
+        row = np.array(automaton["row"], dtype=np.int32)
+        letter, action, probability, steps = _read_arrays(
+            data[end:], header["bytes"], states=codec.size(variables), rows=int(row.max(initial=-1)) + 1
+        )
         return Policy(
             variables=variables,
             actions=tuple(header["actions"]),
@@ -58,33 +73,44 @@ def from_bytes(data: bytes) -> Policy:
             hoa=header["hoa"],
             initial_state=header["initial"]["state"],
             initial_memory=header["initial"]["memory"],
-            accepted=np.array(header["accepted"], dtype=np.bool_),
-            **arrays,
+            successors=np.array(automaton["successors"], dtype=np.int32),
+            accepted=np.array(automaton["accepted"], dtype=np.bool_),
+            row=row,
+            letter=letter,
+            action=action,
+            probability=probability,
+            expected_steps=steps,
         )
     except (KeyError, TypeError, ValueError, zlib.error) as error:
         raise InvalidPolicyError(f"the stored policy is damaged: {error}") from error
 
 
-def _read_arrays(body: bytes, shape: tuple[int, int]) -> dict[str, NDArray[Any]]:
-    count = shape[0] * shape[1]
-    total = sum(np.dtype(kind).itemsize for _, kind in _ARRAYS) * count
+def _read_arrays(body: bytes, widths: list[int], *, states: int, rows: int) -> list[NDArray[Any]]:
+    kinds = [f"<i{widths[0]}", f"<i{widths[1]}", "<f8", "<f8"]
+    shapes = [(states,), (rows, states), (rows, states), (rows, states)]
+    sizes = [int(np.dtype(kind).itemsize * np.prod(shape)) for kind, shape in zip(kinds, shapes, strict=True)]
     stream = zlib.decompressobj()
-    raw = stream.decompress(body, total + 1)
-    if len(raw) != total or not stream.eof:
+    raw = stream.decompress(body, sum(sizes) + 1)
+    if len(raw) != sum(sizes) or not stream.eof:
         raise ValueError("its arrays do not have the size that the header says")
-    arrays, position = {}, 0
-    for name, kind in _ARRAYS:
-        array = np.frombuffer(raw, dtype=kind, count=count, offset=position)
-        arrays[name] = array.reshape(shape).astype(array.dtype.newbyteorder("="))
-        position += array.nbytes
+    arrays, position = [], 0
+    for kind, shape, size in zip(kinds, shapes, sizes, strict=True):
+        array = np.frombuffer(raw[position : position + size], dtype=kind).reshape(shape)
+        arrays.append(array.astype(array.dtype.newbyteorder("=")))
+        position += size
     return arrays
 
 
 def _header(policy: Policy) -> dict[str, Any]:
     return {
-        "accepted": policy.accepted.astype(int).tolist(),
         "actions": list(policy.actions),
         "atoms": list(policy.atoms),
+        "automaton": {
+            "accepted": policy.accepted.astype(int).tolist(),
+            "row": policy.row.tolist(),
+            "successors": policy.successors.tolist(),
+        },
+        "bytes": [policy.letter.itemsize, policy.action.itemsize],
         "formula": policy.formula,
         "hoa": policy.hoa,
         "initial": {"state": policy.initial_state, "memory": policy.initial_memory},
@@ -97,26 +123,27 @@ def _header(policy: Policy) -> dict[str, Any]:
 def to_json(policy: Policy) -> dict[str, Any]:
     """The whole policy as JSON values.
 
-    `state index = Σ stride[v] · (position of the state's value in variables[v].values)`; the flat arrays hold
-    `memories · states` entries, `entry = memory · states + state index`, with the memory before the label of
-    the state is read (start with `initial.memory`):
+    `state index = Σ stride[v] · (position of the state's value in variables[v].values)`. `letter[state index]` is what
+    is read there (bit i: `atoms[i]` holds; -1: the state is invalid), and `after = automaton.successors[memory][letter]`
+    the memory to use at the next state (start with `initial.memory`). Where `automaton.row[after]` is -1 the outcome is
+    decided: the formula holds where `automaton.accepted[after]` is 1, else it cannot any more. Otherwise
+    `entry = automaton.row[after] · states + state index` of the flat arrays:
 
-    - `action`: index into `actions`; -1 nothing to do (decided, or the state is invalid); -2 no action is
-      enabled, let one step pass;
-    - `next_memory`: the memory to use at the next state; -1 the state is invalid. Done where
-      `accepted[next_memory]` is 1;
-    - `probability` of satisfying the formula and `expected_steps` until the outcome is decided, under this
-      policy, rounded to 9 decimals. Probability 0 with a valid state: it cannot be satisfied any more.
+    - `action`: index into `actions`; -1 nothing to do (it cannot be satisfied any more, or the state is invalid); -2 no
+      action is enabled, let one step pass;
+    - `probability` of satisfying the formula and `expected_steps` until the outcome is decided, under this policy,
+      rounded to 9 decimals. 0 steps with an action: the formula holds if the policy is followed for ever.
     """
     header = _header(policy)
+    del header["bytes"]
     for variable, stride in zip(header["variables"], codec.strides(policy.variables), strict=True):
         variable["stride"] = stride
     return {
         **header,
         "states": policy.states,
         "memories": policy.memories,
+        "letter": policy.letter.tolist(),
         "action": policy.action.ravel().tolist(),
-        "next_memory": policy.next_memory.ravel().tolist(),
         "probability": np.round(policy.probability, 9).ravel().tolist(),
         "expected_steps": np.round(policy.expected_steps, 9).ravel().tolist(),
     }

@@ -13,16 +13,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
-from models.planning.bellman import Bellman, threads
 from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, probability_bounds
 from models.planning.end_components import end_components
 from models.planning.graph import Predecessors
+from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.product import Product
 from models.planning.qualities import Qualities
@@ -89,7 +89,8 @@ def _quotient(
     unknown[nodes] = np.unique(group, return_inverse=True)[1]
     owner = unknown[graph.owner]
     chosen = np.flatnonzero((owner >= 0) & ~stays)
-    return unknown, gather(product, chosen, unknown=unknown, known=known, owner=owner[chosen], cost=0.0)
+    choices, _ = gather(product, chosen, unknown=unknown, known=known, owner=owner[chosen], cost=0.0)
+    return unknown, choices
 
 
 def iterate_intervals(
@@ -100,44 +101,34 @@ def iterate_intervals(
 
     `watched` is the unknown whose bounds progress reports; -1 for a value that is settled already.
     """
-    operator = Bellman(choices, maximise=True, device=options.device)
+    operator = operator_of(choices, options.device)
     lower, upper = operator.vector(0.0), operator.vector(1.0)
     precision = min(PRECISION, options.epsilon)
-    place = int(operator.position[watched]) if watched >= 0 else -1
     gap = 1.0
 
     def tell(sweep: int) -> None:
         if progress is not no_progress:
-            low, high = (float(lower[place]), float(upper[place])) if place >= 0 else (1.0, 1.0)
+            known = watched < 0
+            low, high = (1.0, 1.0) if known else (operator.at(lower, watched), operator.at(upper, watched))
             progress("probability", sweep, low, high, choices.unknowns)
 
-    with threads(operator.outcomes):
-        for sweep in range(1, options.max_sweeps + 1):
-            previous, gap = gap, _narrow(operator, lower, upper)
-            stuck = gap == previous and sweep % DIRECT_AFTER == 0  # as close as floating point gets
-            if gap > precision and sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-                gap, stuck = _solve_directly(operator, lower, upper, lambda: tell(DIRECT_AFTER)), True
-            tell(sweep)
-            if gap <= precision or (stuck and gap <= options.epsilon):
-                break
+    for sweep in range(1, options.max_sweeps + 1):
+        previous, gap = gap, operator.narrow(lower, upper, sweep)
+        stuck = gap == previous and sweep % DIRECT_AFTER == 0  # as close as floating point gets
+        if gap > precision and sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+            lower, upper = _solve_directly(operator, lower, upper, lambda: tell(DIRECT_AFTER))
+            gap, stuck = operator.narrow(lower, upper, sweep), True
+        tell(sweep)
+        if gap <= precision or (stuck and gap <= options.epsilon):
+            break
     return operator.numpy(lower), operator.numpy(upper)
 
 
-def _narrow(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor) -> float:
-    """One sweep of both bounds in place, rounded outwards; returns the largest gap."""
-    out = torch.empty_like(lower)
-    margin = operator.choices.roundoff
-    operator.sweep(lower, out)
-    torch.maximum(lower, out.mul_(1.0 - margin), out=lower)
-    operator.sweep(upper, out)
-    torch.minimum(upper, out.mul_(1.0 + margin), out=upper)
-    return float(torch.sub(upper, lower, out=out).max())
-
-
-def _solve_directly(operator: Bellman, lower: torch.Tensor, upper: torch.Tensor, alive: Callable[[], None]) -> float:
-    """Tighten both bounds in place by the direct solver's, where it has any; returns the largest gap."""
-    bounds = probability_bounds(operator.choices, operator.greedy(lower, 0.0)[0], alive)
-    if bounds is not None:
-        torch.maximum(lower, operator.vector(bounds[0]), out=lower)
-        torch.minimum(upper, operator.vector(bounds[1]), out=upper)
-    return float((upper - lower).max())
+def _solve_directly(operator: Operator, lower: Any, upper: Any, alive: Callable[[], None]) -> tuple[Any, Any]:
+    """Both bounds tightened by the direct solver's, where it has any."""
+    policy, _, _ = operator.greedy(lower, maximise=True, tie=0.0)
+    bounds = probability_bounds(operator.choices, policy, alive)
+    if bounds is None:
+        return lower, upper
+    low, high = np.maximum(operator.numpy(lower), bounds[0]), np.minimum(operator.numpy(upper), bounds[1])
+    return operator.vector(low), operator.vector(high)

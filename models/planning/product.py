@@ -8,6 +8,7 @@ columns, not nodes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +34,8 @@ class Product:
     first_outcome: NDArray[np.int32]  # [C + 1]
     successor: NDArray[np.int32]  # [E]
     probability: NDArray[np.float64]  # [E]
+    marks: NDArray[np.uint32]  # [C]  that some outcome of the choice carries; empty where acceptance has no pairs
+    meets: Mapping[int, NDArray[np.float64]]  # by mark that a pair asks for (a bit): [C] the probability to meet it
 
     @property
     def nodes(self) -> int:
@@ -53,34 +56,39 @@ class Product:
         """The node reached by reading the label of `state` in `memory`; memory is the one before reading."""
         return int(self.node[self.next_memory[memory, state], state])
 
-    def columns_before(self) -> NDArray[np.int32]:
-        """[Q, S] by memory before reading: the node or column that reading the label leads to; `lost` if
-        invalid.
-        """
-        invalid = self.next_memory < 0
-        column: NDArray[np.int32] = np.take_along_axis(self.node, np.where(invalid, 0, self.next_memory), axis=0)
-        column[invalid] = self.lost
-        return column
+    def contracted(self, won: NDArray[np.bool_]) -> Product:
+        """Without the nodes of `won` ([n + 2]), which become part of the column of acceptance."""
+        kept = np.flatnonzero(~won[: self.nodes]).astype(np.int32)
+        column = np.full(self.nodes + 2, len(kept), dtype=np.int32)
+        column[kept] = np.arange(len(kept), dtype=np.int32)
+        column[self.lost] = len(kept) + 1
+        choice = spans(self.first_choice, kept)
+        outcome = spans(self.first_outcome, choice)
+        return Product(
+            next_memory=self.next_memory,
+            node=column[self.node],
+            first_choice=offsets(np.diff(self.first_choice)[kept]),
+            action=self.action[choice],
+            first_outcome=offsets(np.diff(self.first_outcome)[choice]),
+            successor=column[self.successor[outcome]],
+            probability=self.probability[outcome],
+            marks=np.zeros(0, dtype=np.uint32),
+            meets={},
+        )
 
 
-def read_labels(automaton: Automaton, labels: NDArray[np.bool_], valid: NDArray[np.bool_]) -> NDArray[np.int32]:
-    """[Q, S] the memory after reading each state's label; `labels` is [atoms, S]; -1 for invalid states."""
-    letter = np.zeros(len(valid), dtype=np.int64)
-    for bit, holds in enumerate(labels):
-        letter |= holds.astype(np.int64) << bit
-    read: NDArray[np.int32] = automaton.successors[:, letter].astype(np.int32)
-    read[:, ~valid] = -1
-    return read
-
-
-def build_product(world: CompiledWorld, automaton: Automaton, next_memory: NDArray[np.int32]) -> Product:
+def build_product(world: CompiledWorld, automaton: Automaton, letter: NDArray[np.int32]) -> Product:
     """The product over every memory and valid state, not only the reachable ones: a robot may re-enter
-    anywhere.
+    anywhere. `letter` is [S], the label of each state.
     """
+    next_memory = automaton.successors[:, letter]
+    next_memory[:, ~world.valid] = -1
     live = np.flatnonzero(~automaton.accepting & ~automaton.rejecting)
     node, members = _number_nodes(world, automaton, next_memory, live)
     everything = np.arange(world.states, dtype=np.int32)
+    wanted = sorted({pair.infinite for pair in automaton.acceptance if pair.infinite})
     choices, actions, outcomes, successors, probabilities = [], [], [], [], []
+    marks, meets = [], {bit: [np.zeros(0)] for bit in wanted}
     for memory, states in zip(live, members, strict=True):
         # What is entered from this memory, by state; an invalid state has no predecessor, so its entry is never used.
         entered = node[next_memory[memory], everything]
@@ -92,6 +100,12 @@ def build_product(world: CompiledWorld, automaton: Automaton, next_memory: NDArr
         outcomes.append(np.diff(world.first_outcome)[choice])
         successors.append(entered[world.successor[outcome]])
         probabilities.append(world.probability[outcome])
+        if automaton.acceptance and len(choice):
+            carried = automaton.marks[memory, letter][world.successor[outcome]]
+            start = offsets(outcomes[-1])[:-1]
+            marks.append(np.bitwise_or.reduceat(carried, start))
+            for bit in wanted:
+                meets[bit].append(np.add.reduceat(np.where(carried & bit, probabilities[-1], 0.0), start))
     none = [np.zeros(0, dtype=np.int32)]
     return Product(
         next_memory=next_memory,
@@ -101,6 +115,8 @@ def build_product(world: CompiledWorld, automaton: Automaton, next_memory: NDArr
         first_outcome=offsets(np.concatenate(outcomes or none)),
         successor=np.concatenate(successors or none),
         probability=probabilities[0] if len(probabilities) == 1 else np.concatenate(probabilities or [np.zeros(0)]),
+        marks=np.concatenate(marks or [np.zeros(0, dtype=np.uint32)]),
+        meets={bit: np.concatenate(parts) for bit, parts in meets.items()},
     )
 
 

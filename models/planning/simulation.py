@@ -20,8 +20,8 @@ MAX_STEPS = 10_000
 class Simulation:
     """How each run ended."""
 
-    satisfied: NDArray[np.bool_]  # [runs]
-    decided: NDArray[np.bool_]  # [runs]  satisfied, or it cannot be any more; else the run was cut off
+    satisfied: NDArray[np.bool_]  # [runs]  the formula holds, or will if the policy goes on for ever
+    decided: NDArray[np.bool_]  # [runs]  that, or it cannot be any more; else the run was cut off
     steps: NDArray[np.int64]  # [runs]  actions done until then
 
     @property
@@ -49,16 +49,17 @@ def simulate(
     """
     generator = np.random.default_rng(seed)
     state = np.full(runs, policy.initial_state if initial is None else initial, dtype=np.int64)
-    memory = np.full(runs, policy.initial_memory, dtype=np.int64)
+    memory = np.full(runs, policy.initial_memory, dtype=np.int32)
     steps = np.zeros(runs, dtype=np.int64)
     decided = np.zeros(runs, dtype=np.bool_)
     satisfied = np.zeros(runs, dtype=np.bool_)
     active = np.arange(runs)
     for done in range(max_steps + 1):
-        action = policy.action[memory[active], state[active]]
-        memory[active] = policy.next_memory[memory[active], state[active]]
-        satisfied[active] = policy.accepted[memory[active]]
-        ended = action == NOTHING
+        memory[active] = policy.after(state[active], memory[active])
+        action = policy.acting(state[active], memory[active])
+        sustaining = policy.sustaining(state[active], memory[active])
+        satisfied[active] = policy.accepted[memory[active]] | sustaining
+        ended = (action == NOTHING) | sustaining
         decided[active[ended]] = True
         steps[active] = done
         active, action = active[~ended], action[~ended]
@@ -69,7 +70,7 @@ def simulate(
 
 
 def _enter(
-    world: World, state: NDArray[np.int64], action: NDArray[np.int32], chance: NDArray[np.float64]
+    world: World, state: NDArray[np.int64], action: NDArray[np.int64], chance: NDArray[np.float64]
 ) -> NDArray[np.int64]:
     """The successor of each run; `chance` is uniform in [0, 1). Without an action the state stays."""
     entered = state.copy()

@@ -19,15 +19,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
-from models.planning.bellman import Bellman, threads
 from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
 from models.planning.graph import Predecessors, reach
+from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
@@ -66,8 +66,8 @@ def conserving(product: Product, qualities: Qualities, probability: Probability,
     if len(maybe):
         nothing = np.full(product.nodes + 2, -1, dtype=np.int32)
         estimate = probability.estimate
-        worth = gather(product, maybe, unknown=nothing, known=estimate, owner=owner[maybe], cost=0.0).constant
-        kept[maybe] = worth >= estimate[owner[maybe]] - slack
+        worth, _ = gather(product, maybe, unknown=nothing, known=estimate, owner=owner[maybe], cost=0.0)
+        kept[maybe] = worth.constant >= estimate[owner[maybe]] - slack
     return kept
 
 
@@ -98,7 +98,7 @@ def fewest_steps(
     rows = np.flatnonzero(kept)
     none = np.zeros(product.nodes + 2)
     owner = unknown[owners(product.first_choice)[rows]]
-    choices = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=1.0)
+    choices, rows = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=1.0)
     towards = np.searchsorted(rows, reached.choice[nodes]).astype(np.int32)
     start = reached.distance[nodes].astype(np.float64)
     policy, low, error = _solve(choices, start, towards, int(unknown[initial]), options, progress)
@@ -121,42 +121,36 @@ def _solve(
     `start` is the distance in steps, a first lower bound; `towards` the policy that follows it, the last
     resort.
     """
-    operator = Bellman(choices, maximise=False, device=options.device)
-    place = int(operator.position[watched]) if watched >= 0 else -1
+    operator = operator_of(choices, options.device)
     x = operator.vector(start)
-    out = torch.empty_like(x)
 
     def tell(sweep: int, rise: float) -> None:
         if progress is not no_progress:
-            value = float(x[place]) if place >= 0 else 0.0
+            value = operator.at(x, watched) if watched >= 0 else 0.0
             progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
 
-    with threads(operator.outcomes):
-        for sweep in range(1, options.max_sweeps + 1):
-            operator.sweep(x, out)
-            rise = float((out - x).max())
-            x, out = torch.maximum(x, out, out=out), x
-            tell(sweep, rise)
-            if rise <= RESIDUAL or (sweep % DIRECT_AFTER == 0 and rise <= choices.roundoff * float(x.max())):
-                break
-            if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-                solved = _solve_directly(operator, x, towards, partial(tell, sweep, rise))
-                x = x if solved is None else solved
-        policy, error = operator.greedy(x, TIE)
-    return (policy if error < 1.0 else towards), operator.numpy(x), error
+    for sweep in range(1, options.max_sweeps + 1):
+        rise = operator.lift(x, sweep)
+        tell(sweep, rise)
+        if rise <= RESIDUAL:
+            break
+        if sweep % DIRECT_AFTER == 0 and rise <= choices.roundoff * float(operator.numpy(x).max()):
+            break
+        if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+            x = _solve_directly(operator, x, towards, partial(tell, sweep, rise))
+    policy, error, _ = operator.greedy(x, maximise=False, tie=TIE)
+    return (policy if error < 1.0 else towards), operator.numpy(x), max(error, 0.0)
 
 
-def _solve_directly(
-    operator: Bellman, x: torch.Tensor, towards: NDArray[np.int32], alive: Callable[[], None]
-) -> torch.Tensor | None:
-    """The optimum from policy iteration, made a lower bound: if x >= T x - r then x / (1 + r) <= T (x / (1 +
-    r)).
+def _solve_directly(operator: Operator, x: Any, towards: NDArray[np.int32], alive: Callable[[], None]) -> Any:
+    """`x`, raised to the optimum from policy iteration, made a lower bound: if v >= T v - r then v / (1 + r) <=
+    T (v / (1 + r)).
     """
-    greedy, rise = operator.greedy(x, TIE)
+    greedy, rise, _ = operator.greedy(x, maximise=False, tie=TIE)
     improver = Improver(operator.choices, maximise=False)
     proposal = improver.improve(greedy if rise < 1.0 else towards, alive)
     if proposal is None:
-        return None
+        return x
     fall = float((proposal.value - improver.best(improver.values(proposal.value))[0]).max())
     fall = max(fall, 0.0) + operator.choices.roundoff * float(proposal.value.max())
-    return torch.maximum(x, operator.vector(proposal.value / (1.0 + fall)))
+    return operator.vector(np.maximum(operator.numpy(x), proposal.value / (1.0 + fall)))

@@ -7,16 +7,16 @@ of the policy: the product with only the choices taken.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from models.planning.chosen import Chosen
 from models.planning.compiled import CompiledWorld
 from models.planning.product import Product
-from models.planning.ragged import distinct, offsets, spans
+from models.planning.ragged import offsets, spans
 
 MAX_LENGTH = 10_000
 """Most steps of a trajectory, not counting the one at which it ends satisfied."""
@@ -44,48 +44,79 @@ class Trajectory:
     runs share the probability. Of equally probable runs it is a shortest (a run counts as equal within a
     relative 1e-9 for each step that it is longer). It never visits a state twice with the same memory.
 
-    `complete`: the last step is where the formula is satisfied. Otherwise the run was longer than MAX_LENGTH
+    `complete`: the run comes to where the formula is satisfied, or will be if the policy goes on for ever. In the latter
+    case it goes on by the likeliest outcomes until it comes again to where it was: the last step repeats step `loop`.
+    Otherwise the run was longer than MAX_LENGTH
     steps and only those are here; or, after a plan that was cut short by `max_sweeps`, the policy has no run
     that satisfies the formula, and there is only the initial step. `probability` is the product of the
-    probabilities of the outcomes from each step here to the next: 1 for a single step.
+    probabilities of the outcomes from each step to the next, until the formula is satisfied or only has to be kept up:
+    1 for a single step.
     """
 
     steps: tuple[TrajectoryStep, ...]
     complete: bool
     probability: float
+    loop: int | None = None
 
 
 def most_probable_run(
-    world: CompiledWorld,
-    product: Product,
-    chosen: NDArray[np.int32],
-    names: tuple[str, ...],
-    *,
-    state: int,
-    memory: int,
+    chosen: Chosen, world: CompiledWorld, names: tuple[str, ...], *, state: int, memory: int
 ) -> Trajectory:
-    """The trajectory of the policy `chosen` ([n], choice by node; -1 where the formula cannot be satisfied).
-
-    `names` are the world's actions; `memory` is the one before the label of `state` is read. Deterministic.
+    """The trajectory of a policy. `names` are the world's actions; `memory` is the one before the label of `state` is
+    read. Deterministic.
     """
-    start = product.node_of(memory, state)
-    path = [start] if start >= product.nodes or chosen[start] < 0 else _cheapest_path(product, chosen, start)
-    shown = path if len(path) <= MAX_LENGTH + 1 else path[:MAX_LENGTH]
-    steps: list[TrajectoryStep] = []
-    probability = 1.0
-    for node, following in pairwise(shown):
-        choice = int(chosen[node])
-        steps.append(TrajectoryStep(state, memory, _name(product, choice, names)))
-        outcome, chance = _likeliest_outcome(product, choice, following)
-        probability *= chance
-        memory = int(product.next_memory[memory, state])
+    walk = _Walk(chosen, world, names, state, memory)
+    start = chosen.whole.node_of(memory, state)
+    path = [start]
+    if start < chosen.whole.nodes and chosen.choice[start] >= 0 and not chosen.inside[start]:
+        path = _cheapest_path(chosen, start)
+    for node in path[1:] if len(path) <= MAX_LENGTH + 1 else path[1:MAX_LENGTH]:
+        walk.go(node)
+    decided = walk.node == chosen.whole.accepted or bool(chosen.inside[walk.node])
+    loop = walk.circle() if chosen.inside[walk.node] else None
+    return Trajectory((*walk.steps, walk.last()), complete=decided, probability=walk.probability, loop=loop)
+
+
+class _Walk:
+    """Where a run is in the product and in the world, and what it has done."""
+
+    def __init__(self, chosen: Chosen, world: CompiledWorld, names: tuple[str, ...], state: int, memory: int) -> None:
+        self._chosen, self._product, self._world, self._names = chosen, chosen.whole, world, names
+        self._state, self._memory = state, memory
+        self.node = self._product.node_of(memory, state)
+        self.steps: list[TrajectoryStep] = []
+        self.probability = 1.0
+
+    def last(self) -> TrajectoryStep:
+        """The step at which the run is."""
+        choice = int(self._chosen.choice[self.node]) if self.node < self._product.nodes else -1
+        return TrajectoryStep(self._state, self._memory, _name(self._product, choice, self._names))
+
+    def go(self, node: int) -> None:
+        """Do the policy's action, which leads to `node` by the likeliest of its outcomes that do."""
+        choice = int(self._chosen.choice[self.node])
+        outcome, chance = _likeliest_outcome(self._product, choice, node)
+        self.probability *= chance
+        self._enter(choice, outcome)
+
+    def circle(self) -> int:
+        """Go on by the likeliest outcomes until a node comes again; returns the step at which it was."""
+        seen: dict[int, int] = {}
+        while self.node not in seen and len(seen) < MAX_LENGTH:
+            seen[self.node] = len(self.steps)
+            choice = int(self._chosen.choice[self.node])
+            outcomes = slice(int(self._product.first_outcome[choice]), int(self._product.first_outcome[choice + 1]))
+            self._enter(choice, int(self._product.probability[outcomes].argmax()))
+        return seen.get(self.node, len(self.steps))
+
+    def _enter(self, choice: int, outcome: int) -> None:
+        product, world = self._product, self._world
+        self.steps.append(self.last())
         # A node has the choices and outcomes of its state, in the same order.
-        of_state = int(world.first_choice[state]) + choice - int(product.first_choice[node])
-        state = int(world.successor[int(world.first_outcome[of_state]) + outcome])
-    last = shown[-1]
-    decided = last >= product.nodes
-    steps.append(TrajectoryStep(state, memory, None if decided else _name(product, int(chosen[last]), names)))
-    return Trajectory(tuple(steps), complete=last == product.accepted, probability=probability)
+        of_state = int(world.first_choice[self._state]) + choice - int(product.first_choice[self.node])
+        self._memory = int(product.next_memory[self._memory, self._state])
+        self._state = int(world.successor[int(world.first_outcome[of_state]) + outcome])
+        self.node = int(product.successor[int(product.first_outcome[choice]) + outcome])
 
 
 def _name(product: Product, choice: int, names: tuple[str, ...]) -> str | None:
@@ -106,12 +137,16 @@ def _likeliest_outcome(product: Product, choice: int, following: int) -> tuple[i
     return outcome, float(chance[outcome])
 
 
-def _cheapest_path(product: Product, chosen: NDArray[np.int32], start: int) -> list[int]:
-    """From the node `start` to the column of acceptance, both included; only `start` if there is no path."""
-    nodes = _reachable(product, chosen, start)
+def _cheapest_path(chosen: Chosen, start: int) -> list[int]:
+    """From the node `start` to the column of acceptance or where the formula holds if the policy goes on, both
+    included; only `start` if there is no path.
+    """
+    product = chosen.whole
+    nodes = chosen.reachable(start)
+    nodes = nodes[~chosen.inside[nodes]]
     number = np.full(product.nodes + 2, -1, dtype=np.int32)
     number[nodes] = np.arange(len(nodes), dtype=np.int32)
-    taken = chosen[nodes]
+    taken = chosen.choice[nodes]
     outcome = spans(product.first_outcome, taken)
     row = np.repeat(np.arange(len(nodes), dtype=np.int32), np.diff(product.first_outcome)[taken])
     entered = product.successor[outcome]
@@ -121,33 +156,14 @@ def _cheapest_path(product: Product, chosen: NDArray[np.int32], start: int) -> l
     first = offsets(np.bincount(row[inner], minlength=len(nodes)))
     chain = sparse.csr_array((cost[inner], target[inner], first), shape=(len(nodes), len(nodes)))
     distance, before = csgraph.dijkstra(chain, indices=[int(number[start])], return_predecessors=True)
-    accepting = np.flatnonzero(entered == product.accepted)
-    total = distance[0, row[accepting]] + cost[accepting]
+    ending = np.flatnonzero((entered == product.accepted) | chosen.inside[entered])
+    total = distance[0, row[ending]] + cost[ending]
     if not len(total) or not np.isfinite(total.min()):
         return [start]
-    place = int(row[accepting[total.argmin()]])
-    path = [product.accepted]
+    best = int(total.argmin())
+    place = int(row[ending[best]])
+    path = [int(entered[ending[best]])]
     while place >= 0:
         path.append(int(nodes[place]))
         place = int(before[0, place])
     return path[::-1]
-
-
-def _reachable(product: Product, chosen: NDArray[np.int32], start: int) -> NDArray[np.int32]:
-    """The nodes that the policy may be in, from `start` on, and in which it can still satisfy the formula.
-
-    A frontier deeper than MAX_LENGTH means a thin chain, of which it is cheaper to take every node.
-    """
-    unseen = np.append(chosen >= 0, [False, False])
-    scratch = np.empty(product.nodes, dtype=np.int32)
-    frontier = np.array([start], dtype=np.int32)
-    unseen[frontier] = False
-    found = [frontier]
-    for _ in range(MAX_LENGTH):
-        entered = product.successor[spans(product.first_outcome, chosen[frontier])]
-        frontier = distinct(entered[unseen[entered]], scratch)
-        if not len(frontier):
-            return np.concatenate(found)
-        unseen[frontier] = False
-        found.append(frontier)
-    return np.flatnonzero(chosen >= 0).astype(np.int32)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from models.logic import Automaton, parse, translate
 from models.planning.compiled import CompiledWorld, compile_world
 from models.planning.graph import Predecessors, predecessors
-from models.planning.product import Product, build_product, read_labels
+from models.planning.product import Product, build_product
 from models.planning.qualities import Qualities, analyse
 from tests.planning.doubles import ArrayWorld
 
@@ -33,7 +33,6 @@ def stages(world: ArrayWorld, formula: str) -> Stages:
     """Compile, translate, multiply, analyse."""
     automaton = translate(parse(formula))
     compiled = compile_world(world)
-    read = read_labels(automaton, world.labels(automaton.atoms), compiled.valid)
-    product = build_product(compiled, automaton, read)
+    product = build_product(compiled, automaton, automaton.letters(world.labels(automaton.atoms)))
     graph = predecessors(product)
     return Stages(world, automaton, compiled, product, graph, analyse(product, graph))

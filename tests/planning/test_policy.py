@@ -65,7 +65,7 @@ def test_a_forbidden_state_is_refused_and_has_no_action(world: World, policy: Po
     invalid = np.flatnonzero(~world.valid())
     assert len(invalid)
     assert (policy.action[:, invalid] == -1).all()
-    assert (policy.next_memory[:, invalid] == -1).all()
+    assert (policy.letter[invalid] == -1).all()
     for index in (int(invalid[0]), -1, world.size):
         with pytest.raises(StateError):
             policy.step(index, 0)
@@ -158,11 +158,17 @@ def test_json_decodes_as_documented(world: World, policy: Policy) -> None:
         assert number == index
         for memory in range(data["memories"]):
             step = policy.step(index, memory)
-            entry = memory * data["states"] + number
+            automaton = data["automaton"]
+            after = automaton["successors"][memory][data["letter"][number]]
+            assert after == step.memory
+            assert bool(automaton["accepted"][after]) == step.done
+            row = automaton["row"][after]
+            if row < 0:
+                assert (step.action, step.probability, step.expected_steps) == (None, float(step.done), 0.0)
+                continue
+            entry = row * data["states"] + number
             action = data["action"][entry]
             assert (data["actions"][action] if action >= 0 else None) == step.action
-            assert data["next_memory"][entry] == step.memory
-            assert bool(data["accepted"][step.memory]) == step.done
             assert data["probability"][entry] == pytest.approx(step.probability, abs=1e-9)
             assert data["expected_steps"][entry] == pytest.approx(step.expected_steps, abs=1e-8)
     assert data["initial"] == {"state": world.initial, "memory": policy.initial_memory}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from models.logic import FormulaNotCosafeError, parse
+from models.logic import parse
 from models.planning import Options, Plan, plan, simulate
 from tests.planning.doubles import ArrayWorld, Transitions
 
@@ -14,7 +14,7 @@ def world(transitions: Transitions, *, initial: int = 0, **holds: set[int]) -> A
     return ArrayWorld(size, transitions, {name: frozenset(states) for name, states in holds.items()}, initial=initial)
 
 
-def solve(model: ArrayWorld, formula: str, **options: float) -> Plan:
+def solve(model: ArrayWorld, formula: str, **options: float | str) -> Plan:
     return plan(model, parse(formula), options=Options(**options))  # type: ignore[arg-type]
 
 
@@ -203,6 +203,85 @@ def test_a_formula_that_already_holds_takes_no_steps() -> None:
         assert result.policy.step(0, result.initial_memory).done
 
 
-def test_a_formula_that_is_not_cosafe_is_refused() -> None:
-    with pytest.raises(FormulaNotCosafeError):
-        solve(world({0: {"go": {0: 1.0}}}, a={0}), "G a")
+def test_an_accepting_state_that_is_left_again_is_not_accepted() -> None:
+    # a holds once on the way to a sink: F a is sure, G F a impossible.
+    model = world({0: {"go": {1: 1.0}}, 1: {"go": {2: 1.0}}, 2: {}}, a={1})
+    assert solve(model, "F a").lower == 1.0
+    assert solve(model, "G F a").outcome == "unreachable"
+
+
+def test_acceptance_needs_an_end_component_not_a_cycle() -> None:
+    # From 1 every try to come back to a fails half of the time, so a is met for ever with probability 0.
+    model = world({0: {"go": {1: 1.0}}, 1: {"back": {0: 0.5, 2: 0.5}}, 2: {}}, a={0})
+    assert solve(model, "G F a").outcome == "unreachable"
+    assert solve(model, "G F a", objective="min").upper == 0.0
+
+
+def test_two_recurrences_need_memory() -> None:
+    # From the middle to a or to b and back: a policy without memory meets only one of them.
+    model = world(
+        {0: {"left": {1: 1.0}, "right": {2: 1.0}}, 1: {"back": {0: 1.0}}, 2: {"back": {0: 1.0}}}, a={1}, b={2}
+    )
+    result = solve(model, "G F a & G F b")
+    assert (result.outcome, result.lower, result.expected_steps) == ("solved", 1.0, 0.0)
+    assert result.round_steps == pytest.approx((4.0, 4.0))
+    assert result.policy is not None
+    assert {result.policy.step(0, memory).action for memory in range(result.policy.memories)} == {"left", "right"}
+    assert result.trajectory is not None
+    loop = result.trajectory.steps[result.trajectory.loop :]
+    assert {1, 2} <= {step.state for step in loop}
+    assert (loop[0].state, loop[0].memory) == (loop[-1].state, loop[-1].memory)
+
+
+def test_the_shortest_round_is_not_the_nearest_mark() -> None:
+    # a holds in 1, one step away but five steps from coming again, and in 6, two steps away and two from coming again.
+    far = {1: {"on": {2: 1.0}}, 2: {"on": {3: 1.0}}, 3: {"on": {4: 1.0}}, 4: {"on": {0: 1.0}}}
+    model = world(
+        {0: {"near": {1: 1.0}, "far": {5: 1.0}}, **far, 5: {"on": {6: 1.0}}, 6: {"on": {5: 1.0}, "back": {0: 1.0}}},
+        a={1, 6},
+    )
+    result = solve(model, "G F a")
+    assert result.policy is not None
+    assert result.round_steps == pytest.approx((2.0, 2.0))
+    assert result.policy.step(0, result.initial_memory).action == "far"
+
+
+def test_safety_is_kept_by_staying() -> None:
+    model = world({0: {"risk": {1: 0.5, 2: 0.5}, "wait": {0: 1.0}}, 1: {}, 2: {}}, b={2})
+    result = solve(model, "G !b")
+    assert (result.lower, result.expected_steps) == (1.0, 0.0)
+    assert result.policy is not None
+    step = result.policy.step(0, result.initial_memory)
+    assert (step.action, step.status, step.done) == ("wait", "sustaining", False)
+    forced = world({0: {"risk": {1: 0.75, 2: 0.25}}, 1: {}, 2: {}}, b={2})
+    assert solve(forced, "G !b").lower == pytest.approx(0.75)
+
+
+def test_persistence_may_be_reached_late() -> None:
+    # F G a: leave the loop in which a comes and goes for one in which it stays, reached with 0.8.
+    moves = {0: {"turn": {1: 1.0}, "leave": {2: 0.8, 3: 0.2}}, 1: {"turn": {0: 1.0}}, 2: {"stay": {2: 1.0}}, 3: {}}
+    result = solve(world(moves, a={0, 2}), "F G a")
+    assert result.lower == pytest.approx(0.8)
+    assert result.expected_steps == pytest.approx(1.0)
+
+
+def test_the_least_probability_goes_through_the_negation() -> None:
+    moves = {0: {"a": {1: 0.3, 2: 0.7}, "b": {1: 0.6, 2: 0.4}}, 1: {}, 2: {}}
+    result = solve(world(moves, g={1}), "F g", objective="min")
+    assert result.lower == pytest.approx(0.3)
+    assert result.upper == pytest.approx(0.3)
+    assert result.policy is not None
+    assert result.policy.step(0, result.initial_memory).action == "a"
+    assert result.policy.step(0, result.initial_memory).probability == pytest.approx(0.7)  # of the policy's own formula
+    for formula, outcome in (("F g | G !g", "unsatisfiable"), ("F (g | !g)", "unsatisfiable")):
+        sure = solve(world(moves, g={1}), formula, objective="min")
+        assert (sure.outcome, sure.lower, sure.upper) == (outcome, 1.0, 1.0)
+    both = solve(world({0: {"a": {1: 1.0}}, 1: {}}, g={1}), "F g", objective="min")
+    assert (both.outcome, both.lower, both.upper) == ("unreachable", 1.0, 1.0)
+
+
+def test_either_of_two_ways_to_accept() -> None:
+    # G F a -> G F b in a choice of loops: only with a for ever (refused), with neither, or with both.
+    loops = {0: {"x": {1: 1.0}, "y": {2: 0.9, 1: 0.1}}, 1: {"stay": {1: 1.0}}, 2: {"stay": {2: 1.0}}}
+    assert solve(world(loops, a={1}, b=set()), "G F a -> G F b").lower == pytest.approx(0.9)
+    assert solve(world(loops, a={1, 2}, b={2}), "G F a -> G F b").lower == pytest.approx(0.9)

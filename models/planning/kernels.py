@@ -1,0 +1,125 @@
+"""Sweeps over sparse choices, compiled by numba: every kernel is one pass over the nodes, in place.
+
+A node's new value is used by the nodes after it in the same sweep (Gauss-Seidel), and sweeps alternate in direction,
+so that values travel along a chain in one sweep whichever way it is numbered. On one thread: a sweep waits for memory,
+and its order decides the last bits, which must be the same for the same request.
+
+Arrays as in `Choices`: `first` [n + 1] choices of a node, `constant` [c], `start` [c + 1] outcomes of a choice,
+`successor` [e], `probability` [e].
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+jit = numba.njit(cache=True, nogil=True, error_model="numpy")
+
+
+@jit
+def narrow(first, constant, start, successor, probability, lower, upper, margin, backwards):
+    """Improve lower and upper bounds of maximal values, rounded outwards; returns the greatest gap."""
+    n = len(first) - 1
+    gap = 0.0
+    for step in range(n):
+        node = n - 1 - step if backwards else step
+        if upper[node] - lower[node] == 0.0:
+            continue
+        low, high = 0.0, 0.0
+        for choice in range(first[node], first[node + 1]):
+            a = b = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                p, t = probability[outcome], successor[outcome]
+                a += p * lower[t]
+                b += p * upper[t]
+            low, high = max(low, a), max(high, b)
+        lower[node] = max(lower[node], low * (1.0 - margin))
+        upper[node] = min(upper[node], high * (1.0 + margin))
+        gap = max(gap, upper[node] - lower[node])
+    return gap
+
+
+@jit
+def lift(first, constant, start, successor, probability, x, backwards):
+    """Raise lower bounds of minimal values; returns the greatest rise."""
+    n = len(first) - 1
+    rise = 0.0
+    for step in range(n):
+        node = n - 1 - step if backwards else step
+        best = np.inf
+        for choice in range(first[node], first[node + 1]):
+            worth = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                worth += probability[outcome] * x[successor[outcome]]
+            best = min(best, worth)
+        if best > x[node]:
+            rise = max(rise, best - x[node])
+            x[node] = best
+    return rise
+
+
+@jit
+def greedy(first, constant, start, successor, probability, x, maximise, tie, policy):
+    """Write the first choice of each node whose value is best up to `tie` · max(1, |best|) into `policy`.
+
+    Returns the greatest excess of the value of a choice taken over `x`, and the greatest shortfall.
+    """
+    n = len(first) - 1
+    worth = np.empty(0)
+    above, below = -np.inf, -np.inf
+    for node in range(n):
+        count = first[node + 1] - first[node]
+        if count > len(worth):
+            worth = np.empty(2 * count)
+        best = -np.inf if maximise else np.inf
+        for place in range(count):
+            choice = first[node] + place
+            value = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                value += probability[outcome] * x[successor[outcome]]
+            worth[place] = value
+            best = max(best, value) if maximise else min(best, value)
+        slack = tie * max(1.0, abs(best))
+        for place in range(count):
+            if (worth[place] >= best - slack) if maximise else (worth[place] <= best + slack):
+                policy[node] = first[node] + place
+                above = max(above, worth[place] - x[node])
+                below = max(below, x[node] - worth[place])
+                break
+    return above, below
+
+
+@jit
+def settle(policy, constant, start, successor, probability, x, backwards):
+    """One step of a policy's Markov chain; returns the greatest change."""
+    n = len(policy)
+    change = 0.0
+    for step in range(n):
+        node = n - 1 - step if backwards else step
+        choice = policy[node]
+        worth = constant[choice]
+        for outcome in range(start[choice], start[choice + 1]):
+            worth += probability[outcome] * x[successor[outcome]]
+        change = max(change, abs(worth - x[node]))
+        x[node] = worth
+    return change
+
+
+@jit
+def average(first, constant, start, successor, probability, h, out, group, damping, low, high):
+    """A damped sweep of relative values from `h` to `out`; `low` and `high` become the extremes of T h - h by group."""
+    low[:] = np.inf
+    high[:] = -np.inf
+    for node in range(len(first) - 1):
+        best = -np.inf
+        for choice in range(first[node], first[node + 1]):
+            worth = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                worth += probability[outcome] * h[successor[outcome]]
+            best = max(best, worth)
+        g = group[node]
+        low[g] = min(low[g], best - h[node])
+        high[g] = max(high[g], best - h[node])
+        out[node] = best
+    for node in range(len(first) - 1):
+        out[node] = h[node] + damping * (out[node] - h[node] - low[group[node]])

@@ -1,0 +1,109 @@
+"""The optimality operator of a numeric problem, and where it runs: compiled loops on a CPU, tensors on a CUDA device.
+
+Both improve the same vectors towards the same values; only the order of a sweep differs.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.planning import kernels
+from models.planning.choices import Choices, Vector
+from models.planning.errors import DeviceUnavailableError
+from models.planning.options import Device
+
+DEVICE_FROM = 1_000_000
+"""Outcomes from which device "auto" moves to a CUDA device."""
+
+
+class Operator(Protocol):
+    """One pass at a time over `choices`. Vectors are the operator's own: `vector` makes them, `numpy` reads them."""
+
+    choices: Choices
+
+    def vector(self, values: Vector | float) -> Any:
+        """[n] from values by unknown, or one value for all."""
+
+    def numpy(self, x: Any) -> Vector:
+        """[n] values by unknown."""
+
+    def at(self, x: Any, unknown: int) -> float:
+        """The value of one unknown."""
+
+    def narrow(self, lower: Any, upper: Any, sweep: int) -> float:
+        """Improve bounds of maximal values in place, rounded outwards; returns the greatest gap."""
+
+    def lift(self, x: Any, sweep: int) -> float:
+        """Raise lower bounds of minimal values in place; returns the greatest rise."""
+
+    def settle(self, x: Any, sweep: int) -> float:
+        """One step of the chain, where each unknown has one choice, in place; returns the greatest change."""
+
+    def greedy(self, x: Any, *, maximise: bool, tie: float) -> tuple[NDArray[Any], float, float]:
+        """[n] by unknown, the first choice whose value is best up to `tie` · max(1, |best|).
+
+        Also how far the value of a choice taken exceeds `x`, at most, and how far it falls short.
+        """
+
+
+class KernelOperator:
+    """See `Operator`: Gauss-Seidel sweeps in alternating directions, on one thread."""
+
+    def __init__(self, choices: Choices) -> None:
+        self.choices = choices
+        self._arrays = (
+            choices.first_choice,
+            choices.constant,
+            choices.first_outcome,
+            choices.successor,
+            choices.probability,
+        )
+        self._chain = np.arange(choices.unknowns, dtype=np.int32)
+
+    def vector(self, values: Vector | float) -> Vector:
+        """See `Operator.vector`."""
+        return np.full(self.choices.unknowns, values) if isinstance(values, float) else values.astype(np.float64)
+
+    def numpy(self, x: Vector) -> Vector:
+        """See `Operator.numpy`."""
+        return x
+
+    def at(self, x: Vector, unknown: int) -> float:
+        """See `Operator.at`."""
+        return float(x[unknown])
+
+    def narrow(self, lower: Vector, upper: Vector, sweep: int) -> float:
+        """See `Operator.narrow`."""
+        return float(kernels.narrow(*self._arrays, lower, upper, self.choices.roundoff, sweep % 2 == 0))
+
+    def lift(self, x: Vector, sweep: int) -> float:
+        """See `Operator.lift`."""
+        return float(kernels.lift(*self._arrays, x, sweep % 2 == 0))
+
+    def settle(self, x: Vector, sweep: int) -> float:
+        """See `Operator.settle`."""
+        return float(kernels.settle(self._chain, *self._arrays[1:], x, sweep % 2 == 0))
+
+    def greedy(self, x: Vector, *, maximise: bool, tie: float) -> tuple[NDArray[np.int32], float, float]:
+        """See `Operator.greedy`."""
+        policy = np.empty(self.choices.unknowns, dtype=np.int32)
+        above, below = kernels.greedy(*self._arrays, x, maximise, tie, policy)
+        return policy, float(above), float(below)
+
+
+def operator_of(choices: Choices, device: Device) -> Operator:
+    """The operator on the device asked for; raises DeviceUnavailableError."""
+    if device == "cpu" or (device == "auto" and len(choices.successor) < DEVICE_FROM):
+        return KernelOperator(choices)
+    import torch  # seconds to load, and of no use without a CUDA device
+
+    if torch.cuda.is_available():
+        from models.planning.tensors import TensorOperator
+
+        return TensorOperator(choices, torch.device("cuda"))
+    if device == "cuda":
+        raise DeviceUnavailableError("there is no CUDA device on this machine")
+    return KernelOperator(choices)
