@@ -1,4 +1,4 @@
-"""The command line: `cqltl serve | learn | translate | plan | openapi`."""
+"""The command line: `cqltl serve | learn | translate | plan | export | import | openapi`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from service.exchange import add_commands, export, import_model
 from service.settings import Settings
 
 
@@ -23,7 +24,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for item in error.errors():
             print(f"CQLTL_{'_'.join(map(str, item['loc'])).upper()}: {item['msg']}", file=sys.stderr)
         return 2
-    run = {"serve": _serve, "openapi": _openapi}.get(options.command, _request)
+    commands = {"serve": _serve, "openapi": _openapi, "export": _export, "import": _import}
+    run = commands.get(options.command, _request)
     return run(settings, options)
 
 
@@ -58,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
 
+    add_commands(commands)
     document = _remote(commands.add_parser("openapi", help="print the OpenAPI document"))
     document.add_argument("--output", type=Path, help="write it to this file")
     document.add_argument("--check", type=Path, help="fail when this file differs from it")
@@ -113,6 +116,14 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
         return 1
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
+
+
+def _export(settings: Settings, options: argparse.Namespace) -> int:
+    return export(settings, options, options.environment_file and _read_environment(options.environment_file))
+
+
+def _import(settings: Settings, options: argparse.Namespace) -> int:
+    return import_model(settings, options)
 
 
 def _read_environment(path: Path) -> Any:

@@ -22,10 +22,21 @@ def post(path: str, body: dict[str, Any], *, server: str | None, settings: Setti
     Raises:
         UnreachableError: no server answers at that address, or what answers does not speak JSON.
     """
-    if server is None:
-        response = asyncio.run(_post_here(path, body, settings))
-        return response.status_code, response.json()
-    return _send("POST", server, path, body)
+    return _ask("POST", path, body, server, settings)
+
+
+def get(path: str, *, server: str | None, settings: Settings) -> tuple[int, Any]:
+    """GET JSON; status and decoded answer. Raises as `post`."""
+    return _ask("GET", path, None, server, settings)
+
+
+def _ask(
+    method: str, path: str, body: dict[str, Any] | None, server: str | None, settings: Settings
+) -> tuple[int, Any]:
+    if server is not None:
+        return _send(method, server, path, body)
+    response = asyncio.run(_ask_here(method, path, body, settings))
+    return response.status_code, response.json()
 
 
 def document(*, server: str | None, settings: Settings) -> dict[str, Any]:
@@ -49,9 +60,9 @@ def _send(method: str, server: str, path: str, body: dict[str, Any] | None) -> t
         raise UnreachableError(f"{url}: {error}") from error
 
 
-async def _post_here(path: str, body: dict[str, Any], settings: Settings) -> httpx.Response:
+async def _ask_here(method: str, path: str, body: dict[str, Any] | None, settings: Settings) -> httpx.Response:
     from service.app import create_app
     from service.asgi import running
 
     async with running(create_app(settings, warm=False)) as client:
-        return await client.post(path, json=body, timeout=TIMEOUT_S)
+        return await client.request(method, path, json=body, timeout=TIMEOUT_S)

@@ -10,6 +10,7 @@ CqltlError
 ├── EnvironmentExistsError     an environment of that name is stored
 ├── NotUnderstoodError         no stored task fits the command to plan
 ├── AmbiguousCommandError      the command to plan fits several objects
+├── DrawingTooLargeError       the automaton has too many states to be drawn
 ├── OutOfTimeError             a budget of time was spent
 ├── OverloadedError            too many requests wait already
 └── NotReadyError              the store does not answer
@@ -78,6 +79,12 @@ class AmbiguousCommandError(CqltlError):
     def __init__(self, detail: str, *, choices: Iterable[str]) -> None:
         super().__init__(detail)
         self.choices = tuple(choices)
+
+
+class DrawingTooLargeError(CqltlError):
+    """The automaton has too many states for a picture."""
+
+    slug = "drawing-too-large"
 
 
 class OutOfTimeError(CqltlError):

@@ -20,7 +20,7 @@ from service.places import at
 from service.services import LoadedEnvironment, Services
 from service.store import StoredPolicy
 from service.understanding import Meaning, Understanding, understand
-from service.worker import Device, PlanAnswer, PlanJob, run_plan
+from service.worker import Device, Objective, PlanAnswer, PlanJob, run_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +54,8 @@ class PlanOrder:
     timeout_s: float
     max_states: int
     device: Device
+    objective: Objective
+    verify: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,15 +98,24 @@ def ground(services: Services, query: str, environment: str) -> tuple[Environmen
 async def plan(services: Services, order: PlanOrder) -> Planned:
     """Ground, compile, and run value iteration in a worker process; the policy is stored."""
     environment, meaning = await run_sync(_prepare, services, order)
-    job = PlanJob(environment.text, meaning.formula, order.state, order.epsilon, order.max_states, order.device)
+    job = PlanJob(
+        environment=environment.text,
+        formula=meaning.formula,
+        state=order.state,
+        epsilon=order.epsilon,
+        max_states=order.max_states,
+        device=order.device,
+        objective=order.objective,
+        verify=order.verify,
+    )
     with (
         at("/state", only={"invalid-state"}),
         at("/options/max_states", only={"model-too-large"}),
         at("/options/device", only={"device-unavailable"}),
-        at(_source(order), only={"formula-not-cosafe", "formula-too-large"}),
+        at(_source(order), only={"formula-too-large"}),
     ):
         answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
-    policy_id = await run_sync(_keep_policy, services, environment.value.name, meaning.formula, answer)
+    policy_id = await run_sync(_keep_policy, services, environment, meaning.formula, order.objective, answer)
     return Planned(meaning, environment.value, answer, policy_id)
 
 
@@ -165,12 +176,14 @@ def _source(order: PlanOrder) -> str:
     return "/contextual_query" if order.query is not None else "/ltl"
 
 
-def _keep_policy(services: Services, environment: str, formula: Formula, answer: PlanAnswer) -> str | None:
-    """Store the policy under a digest of what it holds, so that the same plan has the same id."""
+def _keep_policy(
+    services: Services, environment: LoadedEnvironment, formula: Formula, objective: Objective, answer: PlanAnswer
+) -> str | None:
+    """Store the policy under a digest of what it holds, so that the same plan in the same world has the same id."""
     if answer.policy is None:
         return None
-    ltl = formula_text(formula)
-    digest = hashlib.sha256(json.dumps([environment, ltl]).encode() + b"\0" + answer.policy).hexdigest()[:32]
+    name, ltl, world = environment.value.name, formula_text(formula), environment.text
+    digest = hashlib.sha256(json.dumps([world, ltl, objective]).encode() + b"\0" + answer.policy).hexdigest()[:32]
     with services.store.write() as transaction:
-        transaction.policies.add(StoredPolicy(digest, environment, ltl, answer.policy))
+        transaction.policies.add(StoredPolicy(digest, name, ltl, objective, world, answer.policy))
     return digest

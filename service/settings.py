@@ -21,8 +21,8 @@ class Settings(BaseSettings):
     workers: int = Field(2, ge=1, le=256, description="Processes that plan; one plan at a time each.")
     max_waiting: int = Field(32, ge=0, description="Requests that may wait for a process before 503.")
     max_body_bytes: int = Field(1_048_576, ge=1, description="Largest request body, in bytes.")
-    plan_timeout_s: float = Field(30.0, gt=0, description="Longest planning time a request may ask for, in seconds.")
-    logic_timeout_s: float = Field(5.0, gt=0, description="Longest time for the checks of one formula, in seconds.")
+    plan_timeout_s: float = Field(30.0, gt=0, description="Longest time to plan or simulate, in seconds.")
+    logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
 
     @cached_property

@@ -82,7 +82,7 @@ def drn_text(graph: Graph, world: World, notes: Sequence[str]) -> str:
     lines += ["@nr_states", str(rows + bool(absent)), "@nr_choices", str(choices + bool(absent)), "@model"]
     lines += _rows(graph, names)
     if absent:
-        lines += [f"state {rows} [0] {' '.join(absent)}", "//[no state of the world: declares labels]"]
+        lines += [f"state {rows} [0] {' '.join(absent)}", "// no state of the world: it declares labels"]
         lines += [f"\taction {names[-1]}", f"\t\t{rows} : 1"]
     return "\n".join(lines) + "\n"
 

@@ -53,7 +53,7 @@ class GroundedModel:
 
     def __init__(self, world: OomdpWorld) -> None:
         self.actions = frozenset(world.actions)
-        self.model: Model = world._evaluator.model
+        self.model: Model = world.model  # the world has no public way to its expressions
         model, names = self.model, Identifiers()
         self.parameters = {name: names.new(name) for name in model.parameters}
         self.radix = [len(variable.values) for variable in model.variables]

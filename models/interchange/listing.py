@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from models.interchange.errors import ExportTooLargeError
 from models.world import World
+from models.world.limits import MAX_STATES
 
 MAX_EXPORT_STATES = 1_000_000
 """States of a model that is exported state by state."""
@@ -57,6 +58,8 @@ def list_valid(world: World) -> Listing:
 
 def list_reachable(world: World) -> Listing:
     """The states that some run from the initial one visits, in breadth-first order. Raises ExportTooLargeError."""
+    if world.size > MAX_STATES:
+        raise ExportTooLargeError(f"{world.name} is too large to be listed: {world.size} states, at most {MAX_STATES}")
     frontier = np.array([world.initial], dtype=np.int64)
     seen, found, batches = frontier, [], []
     while len(frontier):

@@ -15,7 +15,7 @@ from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms
 
 MAX_ATOMS = 16
 """Most distinct atoms in what is translated or compared."""
-MAX_OBLIGATIONS = 1_024
+MAX_OBLIGATIONS = 2_048
 """Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
 
 

@@ -29,6 +29,9 @@ MAX_TABLE = 1 << 22
 """Most entries of an automaton's table: states times 2 ** atoms."""
 _MAX_SUBSETS = 20_000  # states of any intermediate deterministic automaton
 _MAX_EDGES = 2_000_000  # its edges, which bounds the time as well: some seconds
+_SMALL = 1 << 12  # entries of tables that are remembered
+_MOST_KNOWN = 256
+_KNOWN: dict[Formula, Automaton] = {}  # automata cannot be written to, and the same formula comes again and again
 _BOUNDED = f"det-max-states={_MAX_SUBSETS},det-max-edges={_MAX_EDGES}"
 _WEAK = f"wdba-minimize=1,wdba-det-max=0,{_BOUNDED},simul=0,ba-simul=0,det-simul=0,det-stutter=0,gf-guarantee=0"
 
@@ -56,6 +59,17 @@ def translate(formula: Formula) -> Automaton:
 
     Raises FormulaTooLargeError beyond MAX_ATOMS or MAX_TABLE, and SpotMissingError.
     """
+    known = _KNOWN.get(formula)
+    if known is None:
+        known = _translate(formula)
+        if known.successors.size <= _SMALL:
+            if len(_KNOWN) >= _MOST_KNOWN:
+                _KNOWN.clear()
+            _KNOWN[formula] = known
+    return known
+
+
+def _translate(formula: Formula) -> Automaton:
     vocabulary = Vocabulary.of(formula)
     made = _Translator.of(vocabulary).deterministic(vocabulary.encode(formula))
     if made.graph.num_states() << len(vocabulary.atoms) > MAX_TABLE:

@@ -33,6 +33,11 @@ class Choices:
         return len(self.first_choice) - 1
 
     @property
+    def arrays(self) -> tuple[NDArray[np.int32], Vector, NDArray[np.int32], NDArray[np.int32], Vector]:
+        """What the kernels read, in their order."""
+        return self.first_choice, self.constant, self.first_outcome, self.successor, self.probability
+
+    @property
     def roundoff(self) -> float:
         """The relative error that one evaluation of a choice may make in floating point."""
         longest = int(np.diff(self.first_outcome).max(initial=0))

@@ -10,10 +10,7 @@ from numpy.typing import NDArray
 from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.ragged import offsets, spans
-from models.world import World
-
-STAY = -1
-"""The action of a state in which no action is enabled: nothing is done and the state stays."""
+from models.world import STAY, Transitions, World
 
 BLOCK = 2**18
 """States compiled at a time, so that the world's dense answer for one action stays small."""
@@ -48,6 +45,7 @@ class CompiledWorld:
     valid: NDArray[np.bool_]  # [S]
     first_choice: NDArray[np.int32]  # [S + 1]
     action: NDArray[np.int32]  # [C]  index of the action, or STAY
+    cost: NDArray[np.float64]  # [C]
     first_outcome: NDArray[np.int32]  # [C + 1]
     successor: NDArray[np.int32]  # [E]
     probability: NDArray[np.float64]  # [E]
@@ -59,6 +57,7 @@ class _Block:
 
     choices: NDArray[np.int32]  # [states]  how many
     action: NDArray[np.int32]  # [c]
+    cost: NDArray[np.float64]  # [c]
     outcomes: NDArray[np.int32]  # [c]  how many
     successor: NDArray[np.int32]  # [e]
     probability: NDArray[np.float64]  # [e]
@@ -114,6 +113,8 @@ def _check_bytes(states: int, memories: int, live: int, per_state: float, option
 def compile_world(world: World, *, progress: Progress = no_progress) -> CompiledWorld:
     """Gather the dynamics of every valid state."""
     valid = world.valid()
+    if world.listed is not None:
+        return _from_listed(world.listed, valid)
     blocks = []
     for number, start in enumerate(range(0, world.size, BLOCK)):
         stop = min(start + BLOCK, world.size)
@@ -124,9 +125,31 @@ def compile_world(world: World, *, progress: Progress = no_progress) -> Compiled
         valid=valid,
         first_choice=offsets(_joined([block.choices for block in blocks])),
         action=_joined([block.action for block in blocks]),
+        cost=np.concatenate([block.cost for block in blocks]),
         first_outcome=offsets(_joined([block.outcomes for block in blocks])),
         successor=_joined([block.successor for block in blocks]),
         probability=np.concatenate([block.probability for block in blocks]),
+    )
+
+
+def _from_listed(listed: Transitions, valid: NDArray[np.bool_]) -> CompiledWorld:
+    """With a choice to stay in the states that have none."""
+    counts = np.diff(listed.first_choice)
+    stuck = np.flatnonzero(counts == 0).astype(np.int32)
+    place = listed.first_choice[stuck]  # where the new choices go
+    outcomes = np.diff(listed.first_outcome)
+    at = listed.first_outcome[place]
+    probability = np.insert(listed.probability, at, 1.0) if len(stuck) else listed.probability
+    counted = np.insert(outcomes, place, 1) if len(stuck) else outcomes
+    return CompiledWorld(
+        states=len(counts),
+        valid=valid,
+        first_choice=offsets(np.maximum(counts, 1)),
+        action=np.insert(listed.action, place, STAY) if len(stuck) else listed.action,
+        cost=np.insert(listed.cost, place, 1.0) if len(stuck) else listed.cost,
+        first_outcome=offsets(counted),
+        successor=np.insert(listed.successor, at, stuck) if len(stuck) else listed.successor,
+        probability=_normalised(probability, counted),
     )
 
 
@@ -140,7 +163,7 @@ def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int
     states = None if whole else np.arange(start, stop, dtype=np.int64)
     usable = valid[start:stop]
     stuck = usable.copy()
-    owner, action, outcomes, successor, probability = [], [], [], [], []
+    owner, action, cost, outcomes, successor, probability = [], [], [], [], [], []
     for number in range(len(world.actions)):
         answer = world.outcomes(number, states)
         enabled = np.flatnonzero(answer.enabled & usable)
@@ -151,12 +174,14 @@ def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int
         happens = chance > 0
         owner.append(enabled.astype(np.int32))
         action.append(np.full(len(enabled), number, dtype=np.int32))
+        cost.append(world.cost(number, enabled + start))
         outcomes.append(happens.sum(axis=1, dtype=np.int32))
         successor.append(answer.successor.T[enabled][happens].astype(np.int32))
         probability.append(chance[happens])
     alone = np.flatnonzero(stuck).astype(np.int32)
     owner.append(alone)
     action.append(np.full(len(alone), STAY, dtype=np.int32))
+    cost.append(np.ones(len(alone)))
     outcomes.append(np.ones(len(alone), dtype=np.int32))
     successor.append(alone + np.int32(start))
     probability.append(np.ones(len(alone)))
@@ -168,6 +193,7 @@ def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int
     return _Block(
         choices=np.bincount(owners, minlength=stop - start).astype(np.int32),
         action=np.concatenate(action)[order],
+        cost=np.concatenate(cost)[order],
         outcomes=count[order],
         successor=np.concatenate(successor)[position],
         probability=_normalised(np.concatenate(probability)[position], count[order]),

@@ -55,7 +55,8 @@ def attained_probability(
     chain, _ = gather(product, steps.chosen[nodes], unknown=unknown, known=value, owner=owner, cost=0.0)
     limit = options.max_sweeps
     change, x = np.inf, probability.estimate[nodes]
-    longest = float(steps.upper[nodes].max())
+    bound = steps.upper / float(product.cost.min())  # on the steps: each costs that at least
+    longest = float(bound[nodes].max())
     operator = operator_of(chain, options.device)
     change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
     if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
@@ -63,7 +64,7 @@ def attained_probability(
         change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
     progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
     value[nodes] = x
-    error = (change + chain.roundoff) * steps.upper[nodes]
+    error = (change + chain.roundoff) * bound[nodes]
     lower[nodes] = np.clip(x - error, 0.0, 1.0) if np.isfinite(longest) else 0.0
     return Attained(value, lower)
 

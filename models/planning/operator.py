@@ -54,13 +54,7 @@ class KernelOperator:
 
     def __init__(self, choices: Choices) -> None:
         self.choices = choices
-        self._arrays = (
-            choices.first_choice,
-            choices.constant,
-            choices.first_outcome,
-            choices.successor,
-            choices.probability,
-        )
+        self._arrays = choices.arrays
         self._chain = np.arange(choices.unknowns, dtype=np.int32)
 
     def vector(self, values: Vector | float) -> Vector:

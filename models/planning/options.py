@@ -19,8 +19,9 @@ class Options:
     `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values
     are computed more exactly than that, because ties between actions are decided on them. A plan that has not
     reached `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto"
-    takes a CUDA device for large models when there is one. `objective` "min" asks for the policy under which the formula
-    is least probable.
+    takes a CUDA device for large models when there is one. `objective` "min" asks for the policy under which the
+    formula is least probable. `relevance` leaves out of the world what the formula cannot depend on, where that is
+    known.
     """
 
     epsilon: float = 1e-6
@@ -29,6 +30,7 @@ class Options:
     max_sweeps: int = 1_000_000
     device: Device = "auto"
     objective: Objective = "max"
+    relevance: bool = True
 
     def __post_init__(self) -> None:
         if not 0 < self.epsilon < 1:

@@ -1,8 +1,10 @@
 """From a world and a formula to a policy: the stages of planning in order.
 
-world ─► arrays ─┐
-formula ─► automaton ─► product ─► accepting end components ─► probability 0 and 1 ─► bounds ─► fewest steps
-─► evaluation ─► policy
+formula ─► automaton ─┐
+world ─► its part that matters ─► labels ─► dense rows, where the world has them and the outcome is sure
+                                    └─────► listed transitions: product, end components, bounds, steps ─► policy
+
+A solver gives the policy on all states (`dense`, `sparse`); what its runs do is then read off its Markov chain.
 """
 
 from __future__ import annotations
@@ -11,34 +13,23 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from models.logic import Automaton, Dialect, Formula, Op, Unary, to_text, translate
-from models.planning.chosen import Chosen
-from models.planning.compiled import CompiledWorld, check_memory, check_outcomes, check_size, compile_world
-from models.planning.evaluation import Attained, attained_probability
-from models.planning.graph import Predecessors, predecessors
+from models.planning import codec, dense, sparse
+from models.planning.chain import Chain, explore
+from models.planning.compiled import check_size
 from models.planning.options import Options, Progress, no_progress
-from models.planning.policy import INVALID, Policy
-from models.planning.policy_data import smallest
-from models.planning.probability import Probability, maximal_probability
-from models.planning.product import Product, build_product
-from models.planning.qualities import Qualities, analyse
-from models.planning.recurrence import accepting_components
-from models.planning.steps import Steps, conserving, fewest_steps
+from models.planning.policy import Policy
+from models.planning.solution import Solution
 from models.planning.trajectory import Trajectory, most_probable_run
-from models.world import StateError, World
+from models.world import OomdpWorld, ProjectedWorld, StateError, World, relevant_part
 
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
-
-SLACKS = (1e-10, 1e-12, 1e-14)
-"""How much probability a choice may seem to lose and still count as tied; tried in turn until the policy
-attains what it should."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """How large the model was."""
+    """How large the model was, as far as it mattered."""
 
     states: int
     product_states: int
@@ -100,48 +91,63 @@ def _turned_round(plan: Plan) -> Plan:
 def _plan(world: World, formula: Formula, start: int, settings: Options, progress: Progress) -> Plan:
     """The greatest probability of a formula."""
     automaton = translate(formula)
-    check_size(world.size, automaton.states, settings)
     _check_initial(world, start)
+    part = _part(world, automaton, start, settings)
+    check_size(part.size, automaton.states, settings)
     if automaton.rejecting[automaton.initial]:
-        return _hopeless("unsatisfiable", world, automaton, start)
-    live = int(np.count_nonzero(~automaton.accepting & ~automaton.rejecting))
-    check_memory(world, automaton.states, live, settings)
-    compiled = compile_world(world, progress=progress)
-    check_outcomes(compiled, automaton.states, live, settings)
-    letter = automaton.letters(world.labels(automaton.atoms))
-    whole = build_product(compiled, automaton, letter)
-    graph = predecessors(whole)
-    recurrence = accepting_components(whole, graph, automaton.acceptance, options=settings, progress=progress)
-    product = whole
-    if recurrence.inside.any():
-        product = whole.contracted(recurrence.inside)
-        graph = predecessors(product)
-    qualities = analyse(product, graph, progress=progress)
-    node = product.node_of(automaton.initial, start)
-    if not qualities.possible[node]:
-        return _hopeless("unreachable", world, automaton, start)
-    probability = maximal_probability(product, graph, qualities, node, options=settings, progress=progress)
-    steps, attained = _optimise(product, graph, qualities, probability, node, settings, progress)
-    chosen = Chosen.of(whole, product, steps.chosen, recurrence)
+        return _hopeless("unsatisfiable", part, automaton, start)
+    begin = part.initial if isinstance(part, ProjectedWorld) else start
+    solution = dense.solve(part, automaton, begin, options=settings, progress=progress)
+    if solution is dense.UNSURE:
+        solution = sparse.solve(part, automaton, begin, options=settings, progress=progress)
+    if not isinstance(solution, Solution):
+        return _hopeless("unreachable", part, automaton, start)
+    policy = _policy(world, part, automaton, solution, start)
+    chain = explore(world, policy)
     return Plan(
         outcome="solved",
-        lower=float(attained.lower[node]),
-        upper=float(probability.upper[node]),
-        expected_steps=float(steps.lower[node]),
-        expected_steps_upper=float(steps.upper[node]),
-        round_steps=chosen.rounds(whole.node_of(automaton.initial, start), recurrence),
+        lower=solution.lower,
+        upper=solution.upper,
+        expected_steps=solution.steps[0],
+        expected_steps_upper=solution.steps[1],
+        round_steps=_rounds(chain, policy, solution),
         initial_state=start,
         initial_memory=automaton.initial,
-        policy=_policy(world, automaton, compiled, letter, chosen, attained, steps, start),
-        trajectory=most_probable_run(chosen, compiled, world.actions, state=start, memory=automaton.initial),
-        sizes=_sizes(world, automaton),
+        policy=policy,
+        trajectory=most_probable_run(chain, policy, automaton),
+        sizes=_sizes(part, automaton),
     )
+
+
+def _part(world: World, automaton: Automaton, start: int, settings: Options) -> World:
+    """The part of the world that the formula depends on."""
+    if not settings.relevance or automaton.acceptance or not isinstance(world, OomdpWorld):
+        return world
+    after = automaton.successors
+    if (
+        after[after, np.arange(after.shape[1])] != after
+    ).any():  # repeating a letter is not always the same as reading it once
+        return world
+    return relevant_part(world, automaton.atoms, start) or world
+
+
+def _rounds(chain: Chain, policy: Policy, solution: Solution) -> tuple[float, float] | None:
+    """Bounds of the expected steps of a round, over the end components that the policy may come to."""
+    if solution.component is None:
+        return None
+    row = policy.row[chain.after]
+    component = np.where(row >= 0, solution.component[row, policy.place(chain.state)], -1)
+    met = np.unique(component[component >= 0])
+    if not len(met):
+        return None
+    return float(solution.rounds[met, 0].min()), float(solution.rounds[met, 1].max())
 
 
 def _check_initial(world: World, state: int) -> None:
     if not 0 <= state < world.size:
         raise StateError(f"state {state} is not one of 0 to {world.size - 1}")
-    if not world.valid(np.array([state], dtype=np.int64))[0]:
+    valid = world.is_valid(state) if isinstance(world, OomdpWorld) else world.valid(np.array([state]))[0]
+    if not valid:
         raise StateError(f"the world does not allow this state: {world.decode(state)}")
 
 
@@ -166,58 +172,19 @@ def _hopeless(outcome: Outcome, world: World, automaton: Automaton, start: int) 
     )
 
 
-def _optimise(
-    product: Product,
-    graph: Predecessors,
-    qualities: Qualities,
-    probability: Probability,
-    node: int,
-    options: Options,
-    progress: Progress,
-) -> tuple[Steps, Attained]:
-    """The fewest steps over the choices tied for the best probability, and what their policy attains.
-
-    Which choices tie is only known as exactly as the values. A choice that is worse by a hair may be taken
-    again and again, so the policy is evaluated, and ties are read more strictly until it attains the lower
-    bound within epsilon.
-    """
-    best: tuple[Steps, Attained] | None = None
-    least = np.inf
-    for slack in SLACKS:
-        kept = conserving(product, qualities, probability, max(slack, 0.0 if best else 2 * probability.gap))
-        steps = fewest_steps(product, graph, qualities, kept, node, options=options, progress=progress)
-        if steps is None:
-            break
-        attained = attained_probability(
-            product, qualities, probability, steps, node, options=options, progress=progress
-        )
-        shortfall = float((probability.lower - attained.lower).max())
-        if shortfall < least:
-            best, least = (steps, attained), shortfall
-        if shortfall <= options.epsilon:
-            break
-    if best is None:
-        raise AssertionError("the choices of maximal probability always decide the outcome")
-    return best
-
-
-def _policy(
-    world: World,
-    automaton: Automaton,
-    compiled: CompiledWorld,
-    letter: NDArray[np.int32],
-    chosen: Chosen,
-    attained: Attained,
-    steps: Steps,
-    start: int,
-) -> Policy:
-    """Values by row and state, read by memory after the label."""
+def _policy(world: World, part: World, automaton: Automaton, solution: Solution, start: int) -> Policy:
+    """Values by row and place, read by memory after the label."""
     live = np.flatnonzero(~automaton.accepting & ~automaton.rejecting)
     row = np.full(automaton.states, -1, dtype=np.int32)
     row[live] = np.arange(len(live), dtype=np.int32)
-    column = chosen.product.node[live]
+    strides = codec.strides(world.variables)
+    harmless = tuple(tuple(range(len(variable.values))) for variable in world.variables)
+    if isinstance(part, ProjectedWorld):
+        strides, harmless = part.projection.inner, part.projection.harmless
     return Policy(
         variables=world.variables,
+        strides=strides,
+        harmless=harmless,
         actions=world.actions,
         formula=to_text(automaton.formula, Dialect.INFIX),
         atoms=tuple(to_text(atom, Dialect.INFIX) for atom in automaton.atoms),
@@ -227,8 +194,8 @@ def _policy(
         successors=automaton.successors,
         accepted=automaton.accepting,
         row=row,
-        letter=smallest(np.where(compiled.valid, letter, INVALID)),
-        action=smallest(chosen.actions()[chosen.whole.node[live]]),
-        probability=attained.value[column],
-        expected_steps=steps.lower[column],
+        letter=solution.letter,
+        action=solution.action,
+        probability=solution.probability,
+        expected_steps=solution.expected_steps,
     )

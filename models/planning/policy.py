@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from models.errors import Place
-from models.planning.codec import strides
+from models.planning import codec
 from models.planning.errors import InvalidMemoryError
 from models.world import State, StateError, Variable
 from models.world.names import clipped
@@ -44,10 +44,11 @@ class Step:
 
     `status` is "satisfied" (`done`: the formula holds whatever follows; stop), "sustaining" (the formula holds if the
     robot goes on for ever as the policy says), "lost" (it cannot be satisfied from here, `probability` is 0 and
-    `action` None: a robot should stop and ask for another task) or "running". `action` may be None while the status is "running" or "sustaining": the world enables no action in this state,
-    so there is nothing to do but to let one step pass, then observe and ask again with the new memory. Hence
-    None alone does not mean the end; `status` does. `expected_steps` counts the steps, waits included, until
-    the status is another than "running"; `probability` is that of satisfying the formula.
+    `action` None: a robot should stop and ask for another task) or "running". `action` may be None while the status is
+    "running" or "sustaining": the world enables no action in this state, so there is nothing to do but to let one step
+    pass, then observe and ask again with the new memory. Hence None alone does not mean the end; `status` does.
+    `expected_steps` counts the steps, waits included, until the status is another than "running"; `probability` is that
+    of satisfying the formula.
     """
 
     action: str | None  # None: stop if the status is "satisfied" or "lost", else wait one step
@@ -63,11 +64,14 @@ class Policy:
     """Arrays over states, for each memory that decides nothing, and the names to read them with.
 
     Every product state has its entry, also those that the initial state never leads to, so a robot that was
-    moved may carry on from where it is. Q memories, L letters, S states, R rows: the memories in which the formula is
-    neither sure to hold nor sure to fail.
+    moved may carry on from where it is. Q memories, L letters, S places, R rows: the memories in which the formula is
+    neither sure to hold nor sure to fail. A place is a state as far as the policy tells states apart: Σ stride · digit
+    over the variables. One with the stride 0 does not matter as long as its digit is `harmless`.
     """
 
     variables: tuple[Variable, ...]  # the digits of a state index, the most significant first
+    strides: tuple[int, ...]  # by variable, for the place
+    harmless: tuple[tuple[int, ...], ...]  # by variable: the digits for which the policy was made
     actions: tuple[str, ...]
     formula: str  # infix
     atoms: tuple[str, ...]  # infix; bit i of a letter of the automaton
@@ -79,33 +83,52 @@ class Policy:
     row: NDArray[np.int32]  # [Q]  the row of a memory, -1 where it is decided
     letter: NDArray[np.signedinteger]  # [S]  what is read in a state, or INVALID
     action: NDArray[np.signedinteger]  # [R, S] after reading; index into `actions`, NOTHING or WAIT
-    probability: NDArray[np.float64]  # [R, S] after reading; of satisfying the formula under this policy
+    probability: NDArray[Any]  # [R, S] after reading; of satisfying the formula under this policy
     expected_steps: NDArray[np.float64]  # [R, S] after reading; until it is decided, or only has to be kept up
 
     @property
-    def states(self) -> int:
-        """Number of state indices, S."""
+    def places(self) -> int:
+        """Number of places, S."""
         return len(self.letter)
+
+    @property
+    def states(self) -> int:
+        """Number of state indices of the world."""
+        return codec.size(self.variables)
 
     @property
     def memories(self) -> int:
         """Number of memories, Q."""
         return len(self.row)
 
-    def after(self, state: NDArray[np.int64], memory: NDArray[np.int64]) -> NDArray[np.int32]:
+    def place(self, state: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The places of states of the world."""
+        if self.places == self.states:
+            return state
+        found = np.zeros_like(state)
+        for variable, inner, outer in zip(self.variables, self.strides, codec.strides(self.variables), strict=True):
+            found += state // outer % len(variable.values) * inner
+        return found
+
+    def reading(self, state: NDArray[np.int64]) -> NDArray[np.signedinteger]:
+        """What is read in states of the world."""
+        letter: NDArray[np.signedinteger] = self.letter[self.place(state)]
+        return letter
+
+    def after(self, state: NDArray[np.int64], memory: NDArray[np.int32]) -> NDArray[np.int32]:
         """The memories after reading valid states; shapes broadcast."""
-        after: NDArray[np.int32] = self.successors[memory, self.letter[state]]
+        after: NDArray[np.int32] = self.successors[memory, self.reading(state)]
         return after
 
     def acting(self, state: NDArray[np.int64], after: NDArray[np.int32]) -> NDArray[np.int64]:
         """Index into `actions`, NOTHING or WAIT, by state and memory after reading it; shapes broadcast."""
         row = self.row[after]
-        found = np.where(row >= 0, self.action[row, state] if len(self.action) else NOTHING, NOTHING)
+        found = np.where(row >= 0, self.action[row, self.place(state)] if len(self.action) else NOTHING, NOTHING)
         return found.astype(np.int64)
 
     def sustaining(self, state: NDArray[np.int64], after: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Whether the formula holds if the policy is followed for ever; arguments as for `acting`."""
-        settled = self.expected_steps[self.row[after], state] == 0 if len(self.action) else False
+        settled = self.expected_steps[self.row[after], self.place(state)] == 0 if len(self.action) else False
         going: NDArray[np.bool_] = settled & (self.acting(state, after) != NOTHING)
         return going
 
@@ -120,7 +143,7 @@ class Policy:
 
     def decode(self, index: int) -> dict[str, dict[str, str]]:
         """The state of an index: object -> attribute -> value."""
-        return decode_state(index, self.variables, strides(self.variables))
+        return decode_state(index, self.variables, codec.strides(self.variables))
 
     def step(self, state: int | State, memory: int) -> Step:
         """What to do in `state` (an index, or by name) with the memory before its label is read.
@@ -133,17 +156,18 @@ class Policy:
             raise InvalidMemoryError(f"memory {memory} is not one of 0 to {self.memories - 1}")
         index = self._observed(state) if isinstance(state, Mapping) else state
         self._check(index)
-        after = int(self.successors[memory, self.letter[index]])
+        place = int(self.place(np.array([index]))[0])
+        after = int(self.successors[memory, self.letter[place]])
         row = int(self.row[after])
         if row < 0:
             done = bool(self.accepted[after])
             return Step(None, after, float(done), 0.0, done, "satisfied" if done else "lost")
-        action = int(self.action[row, index])
-        steps = float(self.expected_steps[row, index])
+        action = int(self.action[row, place])
+        steps = float(self.expected_steps[row, place])
         return Step(
             action=self.actions[action] if action >= 0 else None,
             memory=after,
-            probability=float(self.probability[row, index]),
+            probability=float(self.probability[row, place]),
             expected_steps=steps,
             done=False,
             status="lost" if action == NOTHING else "sustaining" if steps == 0 else "running",
@@ -152,7 +176,7 @@ class Policy:
     def _index(self, state: State, base: int | None) -> int:
         """As `encode`, constraints not looked at."""
         start = self.initial_state if base is None else base
-        return encode_state(state, self.variables, strides(self.variables), start)
+        return encode_state(state, self.variables, codec.strides(self.variables), start)
 
     def _observed(self, state: State) -> int:
         """The index of a state that names every variable."""
@@ -170,5 +194,11 @@ class Policy:
     def _check(self, index: int) -> None:
         if not 0 <= index < self.states:
             raise StateError(f"state {index} is not one of 0 to {self.states - 1}")
-        if self.letter[index] == INVALID:
+        if self.letter[int(self.place(np.array([index]))[0])] == INVALID:
             raise StateError(f"the world does not allow this state: {self.decode(index)}")
+        for variable, outer, allowed in zip(self.variables, codec.strides(self.variables), self.harmless, strict=True):
+            digit = index // outer % len(variable.values)
+            if len(allowed) < len(variable.values) and digit not in allowed:
+                where = f"{variable.object}.{variable.attribute} is {variable.values[digit]}"
+                detail = f"the plan was made for states in which this does not matter, but here {where}: plan again"
+                raise StateError(detail, places=[Place(pointer((variable.object, variable.attribute)), detail)])

@@ -1,9 +1,9 @@
 """Policies as bytes and as JSON: the same policy always gives the same bytes.
 
 Bytes: the magic `cqltl\\0p2`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8,
-keys sorted), then one zlib stream of the arrays `letter` ([states]), `action` ([rows, states]; both signed integers of
-as many bytes as the header says), `probability` and `expected_steps` ([rows, states], float64), each little-endian, row
-by row. No clock, host or library version goes in.
+keys sorted), then one zlib stream of the arrays `letter` ([places]), `action`, `probability` and `expected_steps`
+([rows, places]), each little-endian, row by row, of the `kinds` that the header says. No clock, host or library
+version goes in.
 
 JSON: see `to_json`.
 """
@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from models.planning import codec
 from models.planning.errors import InvalidPolicyError
 from models.planning.policy import Policy
 from models.world import Variable
@@ -26,13 +25,6 @@ from models.world import Variable
 MAGIC = b"cqltl\0p2"
 LEVEL = 1
 """zlib level: on these arrays higher ones cost several times the time for a few percent."""
-
-
-def smallest(array: NDArray[np.integer]) -> NDArray[np.signedinteger]:
-    """The same numbers in the narrowest signed type that holds them."""
-    low, high = int(array.min(initial=0)), int(array.max(initial=0))
-    kind = next(k for k in (np.int8, np.int16, np.int32) if np.iinfo(k).min <= low and high <= np.iinfo(k).max)
-    return array.astype(kind)
 
 
 def to_bytes(policy: Policy) -> bytes:
@@ -63,10 +55,12 @@ def from_bytes(data: bytes) -> Policy:
         automaton = header["automaton"]
         row = np.array(automaton["row"], dtype=np.int32)
         letter, action, probability, steps = _read_arrays(
-            data[end:], header["bytes"], states=codec.size(variables), rows=int(row.max(initial=-1)) + 1
+            data[end:], header["kinds"], places=header["places"], rows=int(row.max(initial=-1)) + 1
         )
         return Policy(
             variables=variables,
+            strides=tuple(v["stride"] for v in header["variables"]),
+            harmless=tuple(tuple(v["harmless"]) for v in header["variables"]),
             actions=tuple(header["actions"]),
             formula=header["formula"],
             atoms=tuple(header["atoms"]),
@@ -85,9 +79,9 @@ def from_bytes(data: bytes) -> Policy:
         raise InvalidPolicyError(f"the stored policy is damaged: {error}") from error
 
 
-def _read_arrays(body: bytes, widths: list[int], *, states: int, rows: int) -> list[NDArray[Any]]:
-    kinds = [f"<i{widths[0]}", f"<i{widths[1]}", "<f8", "<f8"]
-    shapes = [(states,), (rows, states), (rows, states), (rows, states)]
+def _read_arrays(body: bytes, names: list[str], *, places: int, rows: int) -> list[NDArray[Any]]:
+    kinds = [f"<{name}" for name in names]
+    shapes = [(places,), (rows, places), (rows, places), (rows, places)]
     sizes = [int(np.dtype(kind).itemsize * np.prod(shape)) for kind, shape in zip(kinds, shapes, strict=True)]
     stream = zlib.decompressobj()
     raw = stream.decompress(body, sum(sizes) + 1)
@@ -110,12 +104,20 @@ def _header(policy: Policy) -> dict[str, Any]:
             "row": policy.row.tolist(),
             "successors": policy.successors.tolist(),
         },
-        "bytes": [policy.letter.itemsize, policy.action.itemsize],
+        "kinds": [array.dtype.str[1:] for array in _arrays(policy)],
         "formula": policy.formula,
         "hoa": policy.hoa,
+        "places": policy.places,
         "initial": {"state": policy.initial_state, "memory": policy.initial_memory},
         "variables": [
-            {"object": v.object, "attribute": v.attribute, "values": list(v.values)} for v in policy.variables
+            {
+                "object": v.object,
+                "attribute": v.attribute,
+                "values": list(v.values),
+                "stride": stride,
+                "harmless": list(harmless),
+            }
+            for v, stride, harmless in zip(policy.variables, policy.strides, policy.harmless, strict=True)
         ],
     }
 
@@ -123,11 +125,12 @@ def _header(policy: Policy) -> dict[str, Any]:
 def to_json(policy: Policy) -> dict[str, Any]:
     """The whole policy as JSON values.
 
-    `state index = Σ stride[v] · (position of the state's value in variables[v].values)`. `letter[state index]` is what
-    is read there (bit i: `atoms[i]` holds; -1: the state is invalid), and `after = automaton.successors[memory][letter]`
-    the memory to use at the next state (start with `initial.memory`). Where `automaton.row[after]` is -1 the outcome is
-    decided: the formula holds where `automaton.accepted[after]` is 1, else it cannot any more. Otherwise
-    `entry = automaton.row[after] · states + state index` of the flat arrays:
+    `place = Σ stride[v] · (position of the state's value in variables[v].values)`; a variable with the stride 0 does
+    not matter as long as that position is in its `harmless` (otherwise: plan again). `letter[place]` is what is read
+    there (bit i: `atoms[i]` holds; -1: the state is invalid), and `after = automaton.successors[memory][letter]` the
+    memory to use at the next state (start with `initial.memory`). Where `automaton.row[after]` is -1 the outcome is
+    decided: the formula holds where `automaton.accepted[after]` is 1, else it cannot any more. Otherwise `entry =
+    automaton.row[after] · places + place` of the flat arrays:
 
     - `action`: index into `actions`; -1 nothing to do (it cannot be satisfied any more, or the state is invalid); -2 no
       action is enabled, let one step pass;
@@ -135,12 +138,9 @@ def to_json(policy: Policy) -> dict[str, Any]:
       rounded to 9 decimals. 0 steps with an action: the formula holds if the policy is followed for ever.
     """
     header = _header(policy)
-    del header["bytes"]
-    for variable, stride in zip(header["variables"], codec.strides(policy.variables), strict=True):
-        variable["stride"] = stride
+    del header["kinds"]
     return {
         **header,
-        "states": policy.states,
         "memories": policy.memories,
         "letter": policy.letter.tolist(),
         "action": policy.action.ravel().tolist(),

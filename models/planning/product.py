@@ -31,6 +31,7 @@ class Product:
     node: NDArray[np.int32]  # [Q, S]  by memory after reading: node number, `accepted` or `lost`
     first_choice: NDArray[np.int32]  # [n + 1]
     action: NDArray[np.int32]  # [C]
+    cost: NDArray[np.float64]  # [C]
     first_outcome: NDArray[np.int32]  # [C + 1]
     successor: NDArray[np.int32]  # [E]
     probability: NDArray[np.float64]  # [E]
@@ -69,6 +70,7 @@ class Product:
             node=column[self.node],
             first_choice=offsets(np.diff(self.first_choice)[kept]),
             action=self.action[choice],
+            cost=self.cost[choice],
             first_outcome=offsets(np.diff(self.first_outcome)[choice]),
             successor=column[self.successor[outcome]],
             probability=self.probability[outcome],
@@ -87,7 +89,7 @@ def build_product(world: CompiledWorld, automaton: Automaton, letter: NDArray[np
     node, members = _number_nodes(world, automaton, next_memory, live)
     everything = np.arange(world.states, dtype=np.int32)
     wanted = sorted({pair.infinite for pair in automaton.acceptance if pair.infinite})
-    choices, actions, outcomes, successors, probabilities = [], [], [], [], []
+    choices, actions, costs, outcomes, successors, probabilities = [], [], [], [], [], []
     marks, meets = [], {bit: [np.zeros(0)] for bit in wanted}
     for memory, states in zip(live, members, strict=True):
         # What is entered from this memory, by state; an invalid state has no predecessor, so its entry is never used.
@@ -97,6 +99,7 @@ def build_product(world: CompiledWorld, automaton: Automaton, letter: NDArray[np
         outcome = slice(None) if whole else spans(world.first_outcome, choice)
         choices.append(np.diff(world.first_choice)[states])
         actions.append(world.action[choice])
+        costs.append(world.cost[choice])
         outcomes.append(np.diff(world.first_outcome)[choice])
         successors.append(entered[world.successor[outcome]])
         probabilities.append(world.probability[outcome])
@@ -112,6 +115,7 @@ def build_product(world: CompiledWorld, automaton: Automaton, letter: NDArray[np
         node=node,
         first_choice=offsets(np.concatenate(choices or none)),
         action=np.concatenate(actions or none),
+        cost=np.concatenate(costs or [np.zeros(0)]),
         first_outcome=offsets(np.concatenate(outcomes or none)),
         successor=np.concatenate(successors or none),
         probability=probabilities[0] if len(probabilities) == 1 else np.concatenate(probabilities or [np.zeros(0)]),

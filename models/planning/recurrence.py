@@ -6,12 +6,7 @@ components*: for a pair, those without its `finite` mark that hold its `infinite
 of probabilistic systems", 1997; Baier and Katoen, "Principles of Model Checking", 10.6.4). The maximal probability of
 the formula is that of reaching one, or the column of acceptance.
 
-Inside, a policy meets the mark for ever, and as often as can be: it maximises the rounds (marks met) per step, a
-long-run average. Relative value iteration bounds it: with T the optimality operator and h any vector, the optimum of
-a component, which is the same everywhere in it, lies between the least and the greatest of T h - h, and a policy that
-is greedy in h attains at least the least of its own differences (Puterman, "Markov Decision Processes", 1994, 8.5 and
-9.5.3; for model checking Ashok, Chatterjee, Daca, Křetínský and Meggendorfer, "Value iteration for long-run average
-reward in Markov decision processes", CAV 2017).
+Inside, a policy meets the mark for ever, as often as can be: `models.planning.rounds`.
 """
 
 from __future__ import annotations
@@ -23,24 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic import Pair
-from models.planning import kernels
 from models.planning.choices import Choices, Vector, gather
 from models.planning.end_components import end_components
 from models.planning.graph import Mask, Predecessors, reach
 from models.planning.options import Options, Progress, no_progress
 from models.planning.product import Product
-
-DAMPING = 0.8
-"""The share of a step in a sweep; less than one, so that iteration cannot oscillate on periodic components."""
-
-PRECISION = 1e-7
-"""Relative difference of the bounds of the rounds per step at which iteration stops."""
-
-MAX_SWEEPS = 20_000
-"""Most sweeps for one pair. A policy is right before they end; it may then not have the shortest rounds."""
-
-TIE = 1e-9
-"""Difference of values within which the first choice is taken."""
+from models.planning.rounds import shortest_rounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,7 +114,7 @@ class _Finder:
             self._rounds += [(1.0, 1.0)] * (int(number.max()) + 1)
             return
         problem, rows = self._problem(places, choices, self._product.meets[pair.infinite])
-        rounds, policy = _fastest_rounds(problem, number, options=self._options, progress=self._progress)
+        rounds, policy = shortest_rounds(problem, number, options=self._options, progress=self._progress)
         chosen = rows[policy]
         stuck = ~np.isfinite(rounds[number, 1])
         if stuck.any():
@@ -158,41 +141,3 @@ class _Finder:
         way = reach(self._graph, np.unique(owner).astype(np.int32), allowed=allowed).choice
         way[owner] = hits  # the first of them, as they come last to first
         return way[places]
-
-
-def _fastest_rounds(
-    problem: Choices, group: NDArray[np.int32], *, options: Options, progress: Progress
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Bounds of the steps of a round by group, [groups, 2], and the policy that attains the greater; infinite where
-    iteration was cut short too early to tell.
-    """
-    arrays = (problem.first_choice, problem.constant, problem.first_outcome, problem.successor, problem.probability)
-    count = int(group.max()) + 1
-    low, high = np.empty(count), np.empty(count)
-    h, out = np.zeros(problem.unknowns), np.empty(problem.unknowns)
-    for sweep in range(1, min(MAX_SWEEPS, options.max_sweeps) + 1):
-        kernels.average(*arrays, h, out, group, DAMPING, low, high)
-        progress("rounds", sweep, 1.0 / float(high.max()), _inverse(float(low.min())), problem.unknowns)
-        if (high - low <= PRECISION * high).all():
-            break
-        h, out = out, h
-    policy = np.empty(problem.unknowns, dtype=np.int32)
-    kernels.greedy(*arrays, h, True, TIE, policy)
-    chain = problem.only(policy)
-    kernels.average(
-        chain.first_choice,
-        chain.constant,
-        chain.first_outcome,
-        chain.successor,
-        chain.probability,
-        h, out, group, DAMPING, low, np.empty(count),
-    )  # fmt: skip
-    margin = problem.roundoff * (1.0 + float(np.abs(h).max()))
-    rounds = np.array(
-        [[1.0 / (most + margin), _inverse(least - margin)] for least, most in zip(low, high, strict=True)]
-    )
-    return rounds, policy
-
-
-def _inverse(rate: float) -> float:
-    return 1.0 / rate if rate > 0 else np.inf

@@ -1,15 +1,17 @@
 """Among the policies of maximal probability, one with the fewest expected steps until the outcome is decided.
 
-A stochastic shortest path with unit costs (Bertsekas and Tsitsiklis, "An analysis of stochastic shortest path
+A stochastic shortest path with positive costs (Bertsekas and Tsitsiklis, "An analysis of stochastic shortest path
 problems", 1991) over the choices that keep the maximal probability, ending where the formula can no longer
 fail or can no longer be met. Staying undecided for ever is not optimal there, since it costs infinitely much.
 
-Value iteration starts from below, so its vector v satisfies v <= T v, and every step costs 1. If no node's
-value rises by more than r < 1 in a sweep, then u = v / (1 - r) satisfies
+A step costs 1 unless the world says otherwise; let c be the least cost of any. Value iteration starts from below, so
+its vector v satisfies v <= T v. If no node's value rises by more than r c, r < 1, in a sweep, then u = v / (1 - r)
+satisfies
 
-    T u = 1 + (T v - 1) / (1 - r) <= 1 + (v + r - 1) / (1 - r) = u,
+    T u <= (T v - r c) / (1 - r) <= (v + r c - r c) / (1 - r) = u,
 
-so v <= optimum <= v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over
+since scaling the values but not a cost of at least c leaves at least r c / (1 - r) of it out. So v <= optimum <=
+v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over
 its own choices: it decides the outcome with probability one and needs at most v / (1 - r) expected steps. It
 can therefore not circle on a tie, and its values need no further evaluation.
 """
@@ -98,11 +100,12 @@ def fewest_steps(
     rows = np.flatnonzero(kept)
     none = np.zeros(product.nodes + 2)
     owner = unknown[owners(product.first_choice)[rows]]
-    choices, rows = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=1.0)
+    choices, taken = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=product.cost[rows])
     towards = np.searchsorted(rows, reached.choice[nodes]).astype(np.int32)
-    start = reached.distance[nodes].astype(np.float64)
-    policy, low, error = _solve(choices, start, towards, int(unknown[initial]), options, progress)
-    chosen[nodes] = rows[policy]
+    least = float(product.cost[rows].min())
+    start: Vector = reached.distance[nodes].astype(np.float64) * least
+    policy, low, error = _solve(choices, start, least, towards, int(unknown[initial]), options, progress)
+    chosen[nodes] = taken[policy]
     lower[nodes] = low
     upper[nodes] = low / (1.0 - error) if error < 1.0 else np.inf
     return Steps(chosen, lower, upper)
@@ -111,6 +114,7 @@ def fewest_steps(
 def _solve(
     choices: Choices,
     start: Vector,
+    least: float,
     towards: NDArray[np.int32],
     watched: int,
     options: Options,
@@ -118,7 +122,7 @@ def _solve(
 ) -> tuple[NDArray[np.int32], Vector, float]:
     """The policy, its values from below and their relative error (see the module).
 
-    `start` is the distance in steps, a first lower bound; `towards` the policy that follows it, the last
+    `start` is the distance at the `least` cost, a first lower bound; `towards` the policy that follows it, the last
     resort.
     """
     operator = operator_of(choices, options.device)
@@ -130,27 +134,30 @@ def _solve(
             progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
 
     for sweep in range(1, options.max_sweeps + 1):
-        rise = operator.lift(x, sweep)
+        rise = operator.lift(x, sweep) / least
         tell(sweep, rise)
         if rise <= RESIDUAL:
             break
-        if sweep % DIRECT_AFTER == 0 and rise <= choices.roundoff * float(operator.numpy(x).max()):
+        if sweep % DIRECT_AFTER == 0 and rise * least <= choices.roundoff * float(operator.numpy(x).max()):
             break
         if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-            x = _solve_directly(operator, x, towards, partial(tell, sweep, rise))
+            x = _solve_directly(operator, x, towards, least, partial(tell, sweep, rise))
     policy, error, _ = operator.greedy(x, maximise=False, tie=TIE)
-    return (policy if error < 1.0 else towards), operator.numpy(x), max(error, 0.0)
+    error = max(error, 0.0) / least
+    return (policy if error < 1.0 else towards), operator.numpy(x), error
 
 
-def _solve_directly(operator: Operator, x: Any, towards: NDArray[np.int32], alive: Callable[[], None]) -> Any:
-    """`x`, raised to the optimum from policy iteration, made a lower bound: if v >= T v - r then v / (1 + r) <=
+def _solve_directly(
+    operator: Operator, x: Any, towards: NDArray[np.int32], least: float, alive: Callable[[], None]
+) -> Any:
+    """`x`, raised to the optimum from policy iteration, made a lower bound: if v <= T v + r c then v / (1 + r) <=
     T (v / (1 + r)).
     """
     greedy, rise, _ = operator.greedy(x, maximise=False, tie=TIE)
     improver = Improver(operator.choices, maximise=False)
-    proposal = improver.improve(greedy if rise < 1.0 else towards, alive)
+    proposal = improver.improve(greedy if rise < least else towards, alive)
     if proposal is None:
         return x
     fall = float((proposal.value - improver.best(improver.values(proposal.value))[0]).max())
     fall = max(fall, 0.0) + operator.choices.roundoff * float(proposal.value.max())
-    return operator.vector(np.maximum(operator.numpy(x), proposal.value / (1.0 + fall)))
+    return operator.vector(np.maximum(operator.numpy(x), proposal.value / (1.0 + fall / least)))

@@ -56,21 +56,21 @@ class TensorOperator:
         """See `Operator.at`."""
         return float(x[int(self.position[unknown])])
 
-    def narrow(self, lower: torch.Tensor, upper: torch.Tensor, sweep: int) -> float:
+    def narrow(self, lower: torch.Tensor, upper: torch.Tensor, sweep: int) -> float:  # noqa: ARG002  # all at once, in no order
         """See `Operator.narrow`."""
         margin = self.choices.roundoff
         torch.maximum(lower, self._apply(lower, maximise=True).mul_(1.0 - margin), out=lower)
         torch.minimum(upper, self._apply(upper, maximise=True).mul_(1.0 + margin), out=upper)
         return float((upper - lower).max())
 
-    def lift(self, x: torch.Tensor, sweep: int) -> float:
+    def lift(self, x: torch.Tensor, sweep: int) -> float:  # noqa: ARG002  # all at once, in no order
         """See `Operator.lift`."""
         out = self._apply(x, maximise=False)
         rise = float((out - x).max())
         torch.maximum(x, out, out=x)
         return max(rise, 0.0)
 
-    def settle(self, x: torch.Tensor, sweep: int) -> float:
+    def settle(self, x: torch.Tensor, sweep: int) -> float:  # noqa: ARG002  # all at once, in no order
         """See `Operator.settle`."""
         out = self._apply(x, maximise=True)
         change = float((out - x).abs().max())

@@ -11,30 +11,44 @@ from models.world.errors import (
     WorldError,
 )
 from models.world.explanation import explain
+from models.world.explicit import ExplicitWorld
+from models.world.factors import Factored, FactoredAction, Range
 from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
+from models.world.oomdp import OomdpWorld
+from models.world.relevance import ProjectedWorld, Projection, relevant_part
 from models.world.resolution import atom_symbols, distinct_name, resolve
 from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
 from models.world.suggestion import suggest
+from models.world.transitions import STAY, Transitions
 from models.world.vocabulary import Symbol
 from models.world.world import Outcomes, State, Variable, World
 
 __all__ = [
+    "STAY",
     "Candidate",
     "DomainSpec",
     "Environment",
     "EnvironmentSpec",
     "ExplicitSpec",
+    "ExplicitWorld",
+    "Factored",
+    "FactoredAction",
     "Function",
     "FunctionParameter",
     "Grounding",
     "OomdpSpec",
+    "OomdpWorld",
     "Outcomes",
     "PartOfSpeech",
+    "ProjectedWorld",
+    "Projection",
+    "Range",
     "State",
     "StateError",
     "Symbol",
+    "Transitions",
     "TypeMismatchError",
     "UnknownObjectError",
     "UnknownPropositionError",
@@ -49,6 +63,7 @@ __all__ = [
     "ground",
     "load_environment",
     "navigation_spec",
+    "relevant_part",
     "resolve",
     "suggest",
     "toys_spec",

@@ -43,6 +43,8 @@ class GroundedAction:
     probabilities: tuple[Value, ...]
     shifts: tuple[Value, ...]
     merged: bool  # whether outcomes with the same successor have been merged already
+    changes: frozenset[int]  # positions of the variables that some outcome sets
+    cost: float
 
 
 def ground_actions(
@@ -117,7 +119,19 @@ class _Grounder:
             shifts.append(self._shift(changes))
         probabilities = tuple(probability for _, probability, _ in happening)
         self._sums_to_one(probabilities, enabled, path, name)
-        return self._merge(GroundedAction(name, enabled, probabilities, tuple(shifts), False))
+        changed = frozenset(position for _, _, changes in happening for position in changes)
+        return self._merge(
+            GroundedAction(name, enabled, probabilities, tuple(shifts), False, changed, self._cost(action, name))
+        )
+
+    def _cost(self, action: Action, name: str) -> float:
+        cost = self.evaluator.evaluate(action.cost, {})
+        number = float(cost.array) if isinstance(cost, Table) and not cost.scope else np.nan
+        if not (np.isfinite(number) and number > 0):
+            raise ActionError(
+                ("actions", action.name, "cost"), f"{name}: a cost is a positive number, the same everywhere"
+            )
+        return number
 
     def _in_range(self, probability: Value, enabled: Value, path: Path, name: str) -> None:
         outside = self.algebra.combine(_outside_unit, probability)
@@ -224,6 +238,8 @@ class _Grounder:
             tuple(Table(scope, probability[index]) for index in used),
             tuple(Table(scope, shift[index]) for index in used),
             True,
+            action.changes,
+            action.cost,
         )
 
 

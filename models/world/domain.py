@@ -92,6 +92,7 @@ class Action:
     name: str
     arguments: tuple[Argument, ...]
     guard: Expression
+    cost: Expression  # of parameters only
     outcomes: tuple[Outcome, ...]
 
 

@@ -246,7 +246,8 @@ class _Reader:
             self._outcome((*path, "outcomes", index), outcome, scope, checker)
             for index, outcome in enumerate(spec.outcomes[:MAX_DECLARATIONS])
         ]
-        return Action(name, arguments, guard, tuple(outcomes))
+        cost = self._typed((*path, "cost"), spec.cost, {}, checker, expected=NUMBER)
+        return Action(name, arguments, guard, cost, tuple(outcomes))
 
     def _outcome(
         self,

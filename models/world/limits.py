@@ -26,7 +26,7 @@ MAX_SYNONYMS: Final = 50
 """Synonyms of one object, words of one class, display patterns of one function."""
 MAX_VARIABLES: Final = 2_000
 """State attributes of all objects together."""
-MAX_STATES: Final = 2**40
+MAX_STATES: Final = 2**62
 """States of a world whose labels and outcomes can be computed. A larger one can still be spoken of."""
 MAX_GROUNDINGS: Final = 20_000
 """Ways to give all actions their arguments, before impossible ones are dropped."""
@@ -40,5 +40,5 @@ MAX_WORK: Final = 2**25
 """Table entries computed while an environment is compiled."""
 MAX_EXPLICIT_STATES: Final = 1_000_000
 """States of an explicit environment."""
-MAX_EXPLICIT_CELLS: Final = 2**24
-"""States times outcomes, summed over the actions of an explicit environment."""
+MAX_EXPLICIT_OUTCOMES: Final = 2**24
+"""Outcomes of all transitions of an explicit environment together."""

@@ -62,7 +62,7 @@ def _explicit(spec: ExplicitSpec, report: Report) -> Environment | None:
     vocabulary = read_explicit(spec, report)
     if report.places:
         return None
-    return Environment(spec.name, "explicit", None, vocabulary, ExplicitWorld(spec, vocabulary))
+    return Environment(spec.name, "explicit", None, vocabulary, ExplicitWorld.read(spec, vocabulary))
 
 
 def _oomdp(spec: OomdpSpec, report: Report) -> Environment | None:

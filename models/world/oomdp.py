@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from math import prod
 
 import numpy as np
@@ -14,11 +15,13 @@ from models.world.algebra import Algebra, Array, Batch, Box, Frame, Value, evalu
 from models.world.errors import StateError, WorldError
 from models.world.evaluator import Evaluator
 from models.world.expression import ExpressionError
+from models.world.factors import Factored, factor
 from models.world.limits import MAX_STATES
 from models.world.model import Model
 from models.world.names import NONE
 from models.world.resolution import bind_names
 from models.world.states import decode_state, encode_state
+from models.world.transitions import Transitions
 from models.world.vocabulary import Vocabulary
 from models.world.world import Outcomes, State, Variable
 
@@ -26,9 +29,12 @@ from models.world.world import Outcomes, State, Variable
 class OomdpWorld:
     """See `World`. Every guard, probability and effect is a function of the few variables it touches."""
 
+    listed: Transitions | None = None
+
     def __init__(self, model: Model, vocabulary: Vocabulary) -> None:
         """Compiles; raises ActionError for an action that is wrong, ExpressionError for too much work."""
         self.name = model.name
+        self.model = model
         ranges = {id(v.values): v.values for v in model.variables}  # few tuples, shared by many variables
         names = {key: tuple(v.name if v else NONE for v in values) for key, values in ranges.items()}
         self.variables = tuple(Variable(v.owner.name, v.attribute, names[id(v.values)]) for v in model.variables)
@@ -82,6 +88,25 @@ class OomdpWorld:
         self._require_indices()
         frame, here = self._frame(states)
         return _outcomes(self._actions[action], frame, here)
+
+    def cost(self, action: int, states: NDArray[np.int64] | None = None) -> NDArray[np.float64]:
+        """See `World.cost`."""
+        return np.full(self.size if states is None else len(states), self._actions[action].cost)
+
+    @cached_property
+    def factored(self) -> Factored | None:
+        """The dynamics as small tables; None where a guard or an effect has no such form, or the world is too large."""
+        if self.size > MAX_STATES:
+            return None
+        self._evaluator.renew()
+        try:
+            return factor(self._evaluator.algebra, self._strides, self._valid, self._actions)
+        except ExpressionError:  # more work than is allowed
+            return None
+
+    def reads(self, atoms: Sequence[Atom]) -> frozenset[int]:
+        """The positions of the variables that atoms depend on; raises as `labels`."""
+        return frozenset(position for atom in atoms for position in self._proposition(atom).scope)
 
     def _proposition(self, atom: Atom) -> Value:
         symbols = bind_names(atom, self._vocabulary)

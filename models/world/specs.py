@@ -93,6 +93,7 @@ class ActionSpec(_Spec):
     arguments: list[str] = Field(default_factory=list, description="`name: kinds` each.")
     when: Text = Field("true", description=f"Boolean expression: where the action is possible. {_READ}")
     outcomes: list[OutcomeSpec] = Field(min_length=1, description="Their probabilities sum to 1 where it is possible.")
+    cost: Text = Field("1", description="What it costs to do it: a positive number, of parameters only.")
 
 
 class DomainSpec(_Spec):
@@ -162,6 +163,7 @@ class TransitionSpec(_Spec):
 
     source: _State = Field(alias="from", description="State in which the action is possible.")
     action: str = Field(min_length=1, description="Name of the action.")
+    cost: Annotated[float, Field(gt=0, allow_inf_nan=False)] = Field(1.0, description="What it costs to do it.")
     to: list[Annotated[list[Annotated[float, Field(allow_inf_nan=False)]], Field(min_length=2, max_length=2)]] = Field(
         min_length=1, description="Pairs of successor state and probability."
     )

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic.formula import Atom
+from models.world.transitions import Transitions
 
 State = Mapping[str, Mapping[str, str]]
 """object -> attribute -> value, all by name."""
@@ -93,3 +94,10 @@ class World(Protocol):
 
     def outcomes(self, action: int, states: NDArray[np.int64] | None = None) -> Outcomes:
         """What the action at an index of `actions` does in `states`; None is all states in order."""
+
+    def cost(self, action: int, states: NDArray[np.int64] | None = None) -> NDArray[np.float64]:
+        """[n] what it costs to do the action in `states` where it is enabled, above 0; None is all states in order."""
+
+    @property
+    def listed(self) -> Transitions | None:
+        """The transitions, where the world has them listed already."""

@@ -16,9 +16,11 @@ from service.http.schemas import (
     PlanRequest,
     PlanResponse,
     PolicySummary,
+    RoundSteps,
     Situation,
     Timing,
     TrajectoryStep,
+    VerifiedOut,
 )
 from service.http.views import bindings_out, environment_data, query_out
 from service.pipeline import Planned, PlanOrder, plan
@@ -41,7 +43,6 @@ router = APIRouter(tags=["planning"])
         "ambiguous-command",
         "formula-syntax",
         "formula-too-large",
-        "formula-not-cosafe",
         "model-too-large",
         "device-unavailable",
         "out-of-time",
@@ -65,15 +66,33 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
         timeout_s=min(options.timeout_s, settings.plan_timeout_s),
         max_states=min(options.max_states, settings.max_states),
         device=options.device,
+        objective=options.objective,
+        verify=options.verify,
     )
-    return _plan_out(await plan(services, order), time.perf_counter() - started)
+    return _plan_out(await plan(services, order), order, time.perf_counter() - started)
 
 
 def _finite(number: float | None) -> float | None:
     return number if number is not None and math.isfinite(number) else None
 
 
-def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
+def _round_out(steps: tuple[float, float] | None) -> RoundSteps | None:
+    return None if steps is None else RoundSteps(lower=steps[0], upper=_finite(steps[1]))
+
+
+def _verified_out(planned: Planned) -> VerifiedOut | None:
+    found = planned.answer.verified
+    if found is None:
+        return None
+    return VerifiedOut(
+        probability=found.probability,
+        expected_steps=_finite(found.expected_steps),
+        sound=found.sound,
+        states=found.states,
+    )
+
+
+def _plan_out(planned: Planned, order: PlanOrder, seconds: float) -> PlanResponse:
     answer, meaning = planned.answer, planned.meaning
     steps = [TrajectoryStep(state=state, memory=memory, action=action) for state, memory, action in answer.trajectory]
     policy = None
@@ -83,6 +102,7 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
     return PlanResponse(
         id=planned.policy_id,
         outcome=answer.outcome,
+        objective=order.objective,
         contextual_query=None if meaning.query is None else query_out(meaning.query),
         ltl=formula_text(meaning.formula),
         explanation=explain(meaning.formula, planned.environment),
@@ -92,11 +112,14 @@ def _plan_out(planned: Planned, seconds: float) -> PlanResponse:
         probability=Bounds(lower=answer.lower, upper=answer.upper),
         expected_steps=answer.expected_steps,
         expected_steps_upper=_finite(answer.expected_steps_upper),
+        round_steps=_round_out(answer.round_steps),
         initial=Situation(state=answer.initial, memory=answer.initial_memory),
         trajectory=steps,
+        trajectory_loop=answer.loop,
         trajectory_probability=answer.run_probability,
         trajectory_complete=answer.complete,
         policy=policy,
+        verified=_verified_out(planned),
         model=ModelSize(
             states=answer.states,
             product_states=answer.product_states,

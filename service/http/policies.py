@@ -5,15 +5,27 @@ from __future__ import annotations
 import gzip
 import json
 import math
-from typing import Annotated, Literal
+from typing import Annotated
 
 from fastapi import APIRouter, Header, Query, Response
 
+from service.acting import AutomatonFormat, automaton, simulate
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
-from service.http.schemas import PolicyList, PolicyOut, PolicyRow, StepRequest, StepResponse
+from service.http.schemas import (
+    PolicyList,
+    PolicyOut,
+    PolicyRow,
+    SimulateRequest,
+    SimulateResponse,
+    StepCounts,
+    StepRequest,
+    StepResponse,
+)
 from service.places import at
 
 router = APIRouter(prefix="/policies", tags=["policies"])
+
+MEDIA_TYPES: dict[AutomatonFormat, str] = {"hoa": "text/plain", "dot": "text/vnd.graphviz", "svg": "image/svg+xml"}
 
 
 @router.get("", operation_id="listPolicies", responses=refusals("validation"))
@@ -22,7 +34,10 @@ def get_policies(services: ServicesDep, cursor: Cursor = "", limit: Limit = 50) 
     with services.store.read() as transaction:
         found = transaction.policies.page(after=cursor, limit=limit + 1)
     page, cursor_after = page_of(found, limit, lambda entry: entry.id)
-    items = [PolicyRow(id=entry.id, environment=entry.environment, ltl=entry.ltl) for entry in page]
+    items = [
+        PolicyRow(id=entry.id, environment=entry.environment, ltl=entry.ltl, objective=entry.objective)
+        for entry in page
+    ]
     return PolicyList(items=items, next=cursor_after)
 
 
@@ -53,9 +68,9 @@ def get_policy(
     from models.planning import to_json
 
     stored, policy = services.policy(policy_id)
-    content = {"id": stored.id, "environment": stored.environment, **to_json(policy)}
+    asked = {"id": stored.id, "environment": stored.environment, "ltl": stored.ltl, "objective": stored.objective}
     # Straight to text: checking millions of numbers against the schema would cost more than all the rest.
-    text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    text = json.dumps(asked | to_json(policy), separators=(",", ":"), ensure_ascii=False, allow_nan=False)
     if "gzip" not in accept_encoding:
         return Response(text, media_type="application/json")
     # Here, in a thread: the middleware would compress megabytes on the event loop.
@@ -69,18 +84,25 @@ def get_policy(
     operation_id="getPolicyAutomaton",
     response_class=Response,
     responses={
-        200: {"content": {"text/plain": {"schema": {"type": "string"}}}, "description": "The automaton."},
-        **refusals("unknown-policy", "validation"),
+        200: {
+            "content": {media_type: {"schema": {"type": "string"}} for media_type in MEDIA_TYPES.values()},
+            "description": "The automaton, in the format that was asked for.",
+        },
+        **refusals("unknown-policy", "validation", "drawing-too-large", "out-of-time", "overloaded", "spot-missing"),
     },
 )
-def get_policy_automaton(
+async def get_policy_automaton(
     policy_id: str,
     services: ServicesDep,
-    format: Annotated[Literal["hoa"], Query(description="`hoa`: Hanoi omega-automata format.")] = "hoa",  # noqa: A002
+    format: Annotated[  # noqa: A002
+        AutomatonFormat,
+        Query(
+            description="`hoa`: Hanoi omega-automata format; `dot`: for Graphviz; `svg`: a picture of up to 20 states"
+        ),
+    ] = "hoa",
 ) -> Response:
     """The automaton whose states are the policy's memory."""
-    _, policy = services.policy(policy_id)
-    return Response({"hoa": policy.hoa}[format], media_type="text/plain")
+    return Response(await automaton(services, policy_id, format), media_type=MEDIA_TYPES[format])
 
 
 @router.post(
@@ -100,4 +122,26 @@ def post_step(policy_id: str, body: StepRequest, services: ServicesDep) -> StepR
         expected_steps=step.expected_steps if math.isfinite(step.expected_steps) else None,
         done=step.done,
         status=step.status,
+    )
+
+
+@router.post(
+    "/{policy_id}/simulate",
+    operation_id="simulatePolicy",
+    responses=refusals(*BODY, "unknown-policy", "invalid-state", "out-of-time", "overloaded"),
+)
+async def post_simulate(policy_id: str, body: SimulateRequest, services: ServicesDep) -> SimulateResponse:
+    """Run the policy many times in the world that it was planned in, whatever its environment has become since."""
+    found = await simulate(
+        services, policy_id, runs=body.runs, seed=body.seed, max_steps=body.max_steps, state=body.state
+    )
+    return SimulateResponse(
+        runs=body.runs,
+        seed=body.seed,
+        satisfied=found.satisfied,
+        lost=found.lost,
+        undecided=found.undecided,
+        success_rate=found.success_rate,
+        mean_steps=found.mean_steps,
+        steps=StepCounts(histogram=[list(bar) for bar in found.steps]),
     )

@@ -39,7 +39,6 @@ STATUS: dict[str, int] = {
     # formulas and queries
     "formula-syntax": 422,
     "formula-too-large": 422,
-    "formula-not-cosafe": 422,
     "query-syntax": 422,
     "arity-mismatch": 422,
     "unknown-proposition": 422,
@@ -62,6 +61,13 @@ STATUS: dict[str, int] = {
     "invalid-memory": 422,
     "model-too-large": 422,
     "device-unavailable": 422,
+    "drawing-too-large": 422,
+    # the command line's exchange with PRISM and Storm
+    "export-too-large": 422,
+    "storm-missing": 501,
+    "prism-syntax": 422,
+    "prism-constant": 422,
+    "prism-model": 422,
     "out-of-time": 422,
     # the service
     "overloaded": 503,

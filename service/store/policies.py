@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from sqlalchemy import Connection, delete, insert, select
 
@@ -17,6 +17,8 @@ class StoredPolicy:
     id: str
     environment: str
     ltl: str
+    objective: str
+    world: str  # the environment in which it was planned, as JSON text; the one of that name may be another by now
     data: bytes
 
 
@@ -27,6 +29,7 @@ class PolicyEntry:
     id: str
     environment: str
     ltl: str
+    objective: str
 
 
 class PolicyRepository:
@@ -40,15 +43,15 @@ class PolicyRepository:
         row = self._connection.execute(select(policies).where(policies.c.id == policy_id)).first()
         if row is None:
             raise UnknownPolicyError(f'no policy has the id "{policy_id[:100]}"')
-        return StoredPolicy(row.id, row.environment, row.ltl, row.data)
+        return StoredPolicy(**row._mapping)
 
     def page(self, *, after: str = "", limit: int) -> list[PolicyEntry]:
-        """Up to `limit` policies in order of id without their bytes, from the first id greater than `after`."""
-        columns = (policies.c.id, policies.c.environment, policies.c.ltl)
+        """Up to `limit` policies in order of id without what is large, from the first id greater than `after`."""
+        columns = (policies.c.id, policies.c.environment, policies.c.ltl, policies.c.objective)
         rows = self._connection.execute(
             select(*columns).where(policies.c.id > after).order_by(policies.c.id).limit(limit)
         )
-        return [PolicyEntry(row.id, row.environment, row.ltl) for row in rows]
+        return [PolicyEntry(**row._mapping) for row in rows]
 
     def delete(self, policy_id: str) -> None:
         """Remove the policy; raises `UnknownPolicyError`."""
@@ -58,6 +61,4 @@ class PolicyRepository:
     def add(self, policy: StoredPolicy) -> None:
         """Store the policy if it is not stored yet."""
         if self._connection.scalar(select(policies.c.id).where(policies.c.id == policy.id)) is None:
-            self._connection.execute(
-                insert(policies).values(id=policy.id, environment=policy.environment, ltl=policy.ltl, data=policy.data)
-            )
+            self._connection.execute(insert(policies).values(asdict(policy)))

@@ -37,7 +37,9 @@ policies = Table(
     Column("id", String(64), primary_key=True),
     Column("environment", String(200), nullable=False),
     Column("ltl", Text, nullable=False),
-    Column("data", LargeBinary, nullable=False),  # models.planning.Policy.to_bytes
+    Column("objective", String(3), nullable=False),  # max or min
+    Column("world", Text, nullable=False),  # the environment in which it was planned, as JSON
+    Column("data", LargeBinary, nullable=False),  # models.planning.to_bytes
 )
 
 facts = Table(

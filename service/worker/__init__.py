@@ -1,6 +1,26 @@
-"""Worker processes: planning and formula checks run here, so that the server stays responsive and can kill them."""
+"""Worker processes: planning, simulation and what Spot does run here, so that the server stays responsive and can kill
+them.
+"""
 
-from service.worker.jobs import Device, PlanAnswer, PlanJob, ReviewJob, run_plan, run_review
+from service.worker.drawing import DrawingJob, DrawnFormat, run_drawing
+from service.worker.jobs import Device, Objective, PlanAnswer, PlanJob, ReviewJob, Verified, run_plan, run_review
 from service.worker.pool import Workers
+from service.worker.simulation import SimulationAnswer, SimulationJob, run_simulation
 
-__all__ = ["Device", "PlanAnswer", "PlanJob", "ReviewJob", "Workers", "run_plan", "run_review"]
+__all__ = [
+    "Device",
+    "DrawingJob",
+    "DrawnFormat",
+    "Objective",
+    "PlanAnswer",
+    "PlanJob",
+    "ReviewJob",
+    "SimulationAnswer",
+    "SimulationJob",
+    "Verified",
+    "Workers",
+    "run_drawing",
+    "run_plan",
+    "run_review",
+    "run_simulation",
+]

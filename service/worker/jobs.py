@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
 from models.logic import Formula, equivalent, parse
 from models.queries import Template, review
-from models.world import Environment, State, World, compile_world, load_environment
+from models.world import State, World, compile_world, load_environment
+from service.worker.worlds import read_environment, read_world
 
-if TYPE_CHECKING:  # planning loads torch, which the process for formula checks does without
-    from models.planning import Trajectory
+if TYPE_CHECKING:  # planning loads SciPy and numba, which the process for formula checks does without
+    from models.planning import Policy, Trajectory
 
 Device = Literal["auto", "cpu", "cuda"]
+Objective = Literal["max", "min"]
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 
 NamedState = dict[str, dict[str, str]]
@@ -26,7 +26,9 @@ MAX_STEPS = 1_000
 
 @dataclass(frozen=True, slots=True)
 class PlanJob:
-    """Plan for a resolved formula in an environment, given as JSON text, from `state` (partial; None: the initial)."""
+    """Plan for a resolved formula in an environment, given as JSON text, from `state` (partial; None: the initial).
+    `verify` asks for the policy to be checked.
+    """
 
     environment: str
     formula: Formula
@@ -34,6 +36,18 @@ class PlanJob:
     epsilon: float
     max_states: int
     device: Device
+    objective: Objective
+    verify: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What an evaluation of the policy apart from planning found; the probability is that of the formula."""
+
+    probability: float
+    expected_steps: float  # infinite when a run may stay undecided for ever
+    sound: bool
+    states: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +59,15 @@ class PlanAnswer:
     upper: float
     expected_steps: float | None
     expected_steps_upper: float | None  # infinite when iteration could not bound them
+    round_steps: tuple[float, float] | None  # likewise
     initial: NamedState
     initial_memory: int
     trajectory: tuple[tuple[NamedState, int, str | None], ...]  # state, memory before reading it, action
     run_probability: float | None  # of exactly this run
-    complete: bool  # the trajectory ends where the formula is satisfied
+    complete: bool  # the trajectory ends where the goal is satisfied, or will be by going on
+    loop: int | None  # the step that the last one repeats
     policy: bytes | None
+    verified: Verified | None
     states: int
     product_states: int
     automaton_states: int
@@ -70,7 +87,8 @@ def warm_planning() -> None:
     from models.world import toys_spec
 
     world = compile_world(load_environment(toys_spec(columns=2, rows=1, toys=[("sphere", "red")], slip=0.1)))
-    plan(world, parse("F holding(sphere)"), options=Options())
+    for task in ("F holding(sphere)", "G F holding(sphere) & G F !holding(sphere)"):
+        plan(world, parse(task), options=Options())
 
 
 def warm_logic() -> None:
@@ -79,13 +97,15 @@ def warm_logic() -> None:
 
 
 def run_plan(job: PlanJob) -> PlanAnswer:
-    """Compile, build the product, and run value iteration."""
+    """Compile, build the product, and run value iteration; check the policy if that is asked for."""
     from models.planning import Options, plan, to_bytes
 
-    world = _world(job.environment)
+    world = read_world(job.environment)
     initial = world.initial if job.state is None else world.encode(job.state)
-    options = Options(epsilon=job.epsilon, max_states=job.max_states, device=job.device)
+    options = Options(epsilon=job.epsilon, max_states=job.max_states, device=job.device, objective=job.objective)
     found = plan(world, job.formula, initial=initial, options=options)
+    run = found.trajectory
+    whole = run is not None and len(run.steps) <= MAX_STEPS
     return PlanAnswer(
         outcome=found.outcome,
         lower=found.lower,
@@ -94,12 +114,13 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         expected_steps_upper=found.expected_steps_upper,
         initial=world.decode(initial),
         initial_memory=found.initial_memory,
-        trajectory=_steps(world, found.trajectory),
-        run_probability=None if found.trajectory is None else found.trajectory.probability,
-        complete=found.trajectory is not None
-        and found.trajectory.complete
-        and len(found.trajectory.steps) <= MAX_STEPS,
+        round_steps=found.round_steps,
+        trajectory=_steps(world, run),
+        run_probability=None if run is None else run.probability,
+        complete=run is not None and run.complete and whole,
+        loop=run.loop if run is not None and whole else None,
         policy=None if found.policy is None else to_bytes(found.policy),
+        verified=_verified(world, found.policy, job.objective) if job.verify and found.policy is not None else None,
         states=found.sizes.states,
         product_states=found.sizes.product_states,
         automaton_states=found.sizes.automaton_states,
@@ -108,7 +129,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
 
 def run_review(job: ReviewJob) -> tuple[str, ...]:
     """The warnings of a template."""
-    return review(job.template, _environment(job.environment))
+    return review(job.template, read_environment(job.environment))
 
 
 def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedState, int, str | None], ...]:
@@ -116,11 +137,9 @@ def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedStat
     return tuple((world.decode(step.state), step.memory, step.action) for step in steps)
 
 
-@lru_cache(maxsize=16)
-def _environment(text: str) -> Environment:
-    return load_environment(json.loads(text))
+def _verified(world: World, policy: Policy, objective: Objective) -> Verified:
+    from models.planning import check
 
-
-@lru_cache(maxsize=4)
-def _world(text: str) -> World:
-    return compile_world(_environment(text))
+    found = check(world, policy)
+    goal = min(max(found.probability, 0.0), 1.0)  # it is right but for rounding
+    return Verified(1.0 - goal if objective == "min" else goal, found.expected_steps, found.sound, found.states)

@@ -52,6 +52,11 @@ class ArrayWorld:
         rows = [[s in self.holds[atom.function] for s in wanted] for atom in atoms]
         return np.array(rows, dtype=np.bool_).reshape(len(atoms), len(wanted))
 
+    listed = None
+
+    def cost(self, action: int, states: NDArray[np.int64] | None = None) -> NDArray[np.float64]:
+        return np.ones(len(self._states(states)))
+
     def outcomes(self, action: int, states: NDArray[np.int64] | None = None) -> Outcomes:
         wanted = self._states(states)
         name = self.actions[action]

@@ -166,7 +166,7 @@ def test_json_decodes_as_documented(world: World, policy: Policy) -> None:
             if row < 0:
                 assert (step.action, step.probability, step.expected_steps) == (None, float(step.done), 0.0)
                 continue
-            entry = row * data["states"] + number
+            entry = row * data["places"] + number
             action = data["action"][entry]
             assert (data["actions"][action] if action >= 0 else None) == step.action
             assert data["probability"][entry] == pytest.approx(step.probability, abs=1e-9)

@@ -59,6 +59,14 @@ def check_problem(
     return problem
 
 
+def plan(client: httpx.Client, **body: Any) -> dict[str, Any]:
+    """The answer to a plan that is not refused."""
+    response = client.post("/plan", json=body)
+    assert response.status_code == 200, response.text
+    answer: dict[str, Any] = response.json()
+    return answer
+
+
 def run_cli(*arguments: str, data: Path, **environment: str) -> subprocess.CompletedProcess[str]:
     """Run `cqltl` with a data folder."""
     return subprocess.run(

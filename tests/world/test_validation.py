@@ -1,6 +1,7 @@
 """Every kind of wrong data is refused with the exact place."""
 
 import time
+from unittest.mock import patch
 
 import pytest
 from hypothesis import given, settings
@@ -412,9 +413,10 @@ def test_hints_for_many_long_names_are_quick():
 
 
 def test_explicit_environments_cannot_fill_the_memory():
-    wide = {"from": 0, "action": "go", "to": [[i, 0.001] for i in range(1000)]}
-    data = changed(TINY, ("states", 1_000_000), ("transitions", [wide]))
-    assert "exceed" in faults(data)["/transitions"]
+    wide = [{"from": i, "action": "go", "to": [[0, 0.5], [1, 0.5]]} for i in range(20)]
+    data = changed(TINY, ("states", 1_000_000), ("transitions", wide))
+    with patch("models.world.explicit.MAX_EXPLICIT_OUTCOMES", 39):
+        assert "more than 39 outcomes" in faults(data)["/transitions"]
 
 
 JSON = st.recursive(

@@ -25,21 +25,28 @@ from service.http.schemas.plans import (
     PlanRequest,
     PlanResponse,
     PolicySummary,
+    RoundSteps,
     Situation,
     Timing,
     TrajectoryStep,
+    VerifiedOut,
 )
 from service.http.schemas.policies import (
+    AutomatonOut,
     PolicyList,
     PolicyOut,
     PolicyRow,
+    SimulateRequest,
+    SimulateResponse,
     Start,
+    StepCounts,
     StepRequest,
     StepResponse,
     VariableOut,
 )
 
 __all__ = [
+    "AutomatonOut",
     "BatchRequest",
     "BatchResponse",
     "BindingOut",
@@ -66,8 +73,12 @@ __all__ = [
     "PolicySummary",
     "QuestionOut",
     "Request",
+    "RoundSteps",
+    "SimulateRequest",
+    "SimulateResponse",
     "Situation",
     "Start",
+    "StepCounts",
     "StepRequest",
     "StepResponse",
     "TemplateList",
@@ -77,4 +88,5 @@ __all__ = [
     "TranslateRequest",
     "TranslateResponse",
     "VariableOut",
+    "VerifiedOut",
 ]

@@ -23,6 +23,14 @@ from service.http.schemas.common import (
 class PlanOptions(Request):
     """Accuracy and limits."""
 
+    objective: Literal["max", "min"] = Field(
+        "max",
+        description="`min`: the policy under which the formula is least probable. The goal is then its negation, and "
+        "`outcome`, `expected_steps`, `round_steps`, `trajectory` and the policy are those of the goal.",
+    )
+    verify: bool = Field(
+        False, description="Also evaluate the policy apart from planning; the time for it counts towards `timeout_s`."
+    )
     epsilon: float = Field(1e-6, ge=1e-12, lt=1, description="Most that upper and lower probability may differ.")
     timeout_s: float = Field(30.0, gt=0, allow_inf_nan=False, description="Longest planning time, in seconds.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states.")
@@ -78,6 +86,22 @@ class PolicySummary(BaseModel):
     states: int = Field(description="Number of state indices.")
 
 
+class RoundSteps(BaseModel):
+    """An interval that holds the expected steps of a round."""
+
+    lower: float
+    upper: float | None = Field(description="Null where no bound was found.")
+
+
+class VerifiedOut(BaseModel):
+    """What the policy attains, worked out anew from nothing but the world, its arrays and the formula."""
+
+    probability: float = Field(description="Of satisfying the formula.")
+    expected_steps: float | None = Field(description="Until the outcome is decided; null if that may never be.")
+    sound: bool = Field(description="Wherever the policy says that it only has to go on, its runs satisfy the goal.")
+    states: int = Field(description="Product states that the policy may come to.")
+
+
 class ModelSize(BaseModel):
     """How large the problem was."""
 
@@ -96,26 +120,42 @@ class PlanResponse(BaseModel):
     """A plan."""
 
     id: str | None = Field(description="The policy's id; null without a policy.")
-    outcome: Literal["solved", "unsatisfiable", "unreachable"]
+    outcome: Literal["solved", "unsatisfiable", "unreachable"] = Field(
+        description="`unsatisfiable`: no run at all satisfies the goal; `unreachable`: none of this world does. The "
+        "goal is the formula, or its negation where the objective is `min`."
+    )
+    objective: Literal["max", "min"]
     contextual_query: ContextualQueryOut | None
     ltl: str
     explanation: str
     bindings: list[BindingOut] = Field(description="What the phrases of a command or query were taken for.")
     warnings: list[str] = Field(description="What to know of the template that the formula came from.")
     environment: str
-    probability: Bounds = Field(description="Maximal probability of satisfying the formula.")
+    probability: Bounds = Field(description="Maximal, or minimal, probability of satisfying the formula.")
     expected_steps: float | None = Field(
         description="Minimal expected steps until the outcome is decided; a lower bound, see `expected_steps_upper`."
     )
     expected_steps_upper: float | None = Field(
         description="The minimal expected steps are no more than this; null where no bound was found in time."
     )
+    round_steps: RoundSteps | None = Field(
+        description="Expected steps of one round of what has to be done for ever; null where there is no such thing."
+    )
     initial: Situation
     trajectory: list[TrajectoryStep] = Field(
-        description="Of the runs in which the policy satisfies the formula, the most probable one."
+        description="Of the runs in which the policy satisfies the goal, the most probable one."
     )
-    trajectory_probability: float | None = Field(description="Probability of exactly this run; null without one.")
-    trajectory_complete: bool = Field(description="The run ends where the formula is satisfied; else it was cut short.")
+    trajectory_loop: int | None = Field(
+        description="The position in `trajectory` that its last step repeats, from where it goes round; null where the "
+        "run ends, or was cut short."
+    )
+    trajectory_probability: float | None = Field(
+        description="Probability of exactly this run, up to where the outcome is decided; null without one."
+    )
+    trajectory_complete: bool = Field(
+        description="The run comes to where the goal is satisfied, or will be by going on; else it was cut short."
+    )
     policy: PolicySummary | None
+    verified: VerifiedOut | None = Field(description="Null without `verify`, and without a policy.")
     model: ModelSize
     timing: Timing

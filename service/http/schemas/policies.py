@@ -1,12 +1,15 @@
-"""Policies and their steps."""
+"""Policies: their steps, their simulation, the whole of one."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, model_validator
 
 from service.http.schemas.common import Request, State
+
+MAX_WORK = 1_000_000_000
+"""Most steps of all runs of a simulation together."""
 
 
 class PolicyRow(BaseModel):
@@ -15,6 +18,7 @@ class PolicyRow(BaseModel):
     id: str
     environment: str
     ltl: str
+    objective: str = Field(description="`max`, or `min`: then the policy does its best to falsify `ltl`.")
 
 
 class PolicyList(BaseModel):
@@ -25,12 +29,13 @@ class PolicyList(BaseModel):
 
 
 class VariableOut(BaseModel):
-    """One digit of a state index."""
+    """A state attribute."""
 
     object: str
     attribute: str
     values: list[str]
-    stride: int
+    stride: int = Field(description="0 where the variable does not matter.")
+    harmless: list[int] = Field(description="Positions in `values` for which the policy was made.")
 
 
 class Start(BaseModel):
@@ -40,29 +45,46 @@ class Start(BaseModel):
     memory: int
 
 
+class AutomatonOut(BaseModel):
+    """How memory changes, by memory."""
+
+    accepted: list[int] = Field(description="1 where the formula is satisfied, whatever happens next.")
+    row: list[int] = Field(description="The row of the flat arrays; -1 where the outcome is decided.")
+    successors: list[list[int]] = Field(description="By letter read: the memory after it.")
+
+
 class PolicyOut(BaseModel):
     """A whole policy.
 
-    State index = sum over variables of `stride` times the position of the state's value in `values`. The flat arrays
-    have one entry for each memory and state, at `memory * states + state index`; memory is what the robot holds before
-    the label of the state is read.
+    Place = sum over variables of `stride` times the position of the state's value in `values`; where `stride` is 0 the
+    variable does not matter as long as that position is in `harmless`, and otherwise the plan has to be made again. In
+    a state, the memory becomes `after = automaton.successors[memory][letter[place]]`. Where `automaton.row[after]` is
+    -1 the outcome is decided: satisfied where `automaton.accepted[after]` is 1, else lost. Otherwise the flat arrays
+    `action`, `probability` and `expected_steps` tell at `automaton.row[after] * places + place` what to do.
     """
 
     id: str
     environment: str
-    formula: str
-    atoms: list[str] = Field(description="Bit i of a letter of the automaton.")
+    ltl: str = Field(description="The formula that was asked for.")
+    objective: str = Field(description="`max` or `min`.")
+    formula: str = Field(description="The policy's formula: `ltl`, negated where the objective is `min`.")
+    atoms: list[str] = Field(description="Bit i of a letter says whether the i-th holds.")
     hoa: str = Field(description="The automaton, in the Hanoi omega-automata format.")
-    accepted: list[int] = Field(description="By memory: 1 where the formula is satisfied, whatever happens next.")
+    automaton: AutomatonOut
     actions: list[str]
     variables: list[VariableOut]
     initial: Start
-    states: int
+    places: int
     memories: int
-    action: list[int] = Field(description="Index into `actions`; -1 nothing to do; -2 let one step pass.")
-    next_memory: list[int] = Field(description="The memory to hold at the next state; -1 the state is not legal.")
-    probability: list[float] = Field(description="Of satisfying the formula from there.")
-    expected_steps: list[float] = Field(description="Until the outcome is decided; -1 unknown.")
+    letter: list[int] = Field(description="By place: what is read there; -1 the state is not legal.")
+    action: list[int] = Field(
+        description="Index into `actions`; -1 nothing to do, the formula cannot be satisfied; -2 let one step pass."
+    )
+    probability: list[float] = Field(description="Of satisfying the policy's formula from there.")
+    expected_steps: list[float] = Field(
+        description="Until the outcome is decided. 0 where something is to be done: the formula holds if the policy is "
+        "followed for ever."
+    )
 
 
 class StepRequest(Request):
@@ -76,12 +98,52 @@ class StepResponse(BaseModel):
     """What to do next."""
 
     action: str | None = Field(
-        description="Null when there is nothing left to do; while `running`, when no action is possible: observe again."
+        description="Null when `satisfied` or `lost`; else, when no action is possible: let a step pass, observe again."
     )
     memory: int = Field(description="Send it with the next state.")
-    probability: float = Field(description="Of satisfying the formula from here.")
-    expected_steps: float | None = Field(description="Until the outcome is decided.")
-    done: bool = Field(description="The formula is satisfied, whatever happens next.")
-    status: Literal["running", "satisfied", "lost"] = Field(
-        description="`lost`: the formula cannot be satisfied from here; stop and ask for another task."
+    probability: float = Field(description="Of satisfying the policy's formula from here.")
+    expected_steps: float | None = Field(description="Until the status is another than `running`.")
+    done: bool = Field(description="The policy's formula is satisfied, whatever happens next: `satisfied`.")
+    status: Literal["running", "sustaining", "satisfied", "lost"] = Field(
+        description="`sustaining`: the formula holds if the policy is followed for ever, so go on. `lost`: it cannot "
+        "be satisfied from here; stop and ask for another task."
     )
+
+
+class SimulateRequest(Request):
+    """How to run a policy; `runs` times `max_steps` is at most 1,000,000,000."""
+
+    runs: int = Field(1_000, ge=1, le=100_000)
+    seed: int = Field(0, ge=0, le=2**63 - 1, description="Equal requests give equal answers.")
+    max_steps: int = Field(1_000, ge=1, le=100_000, description="Where a run ends that is still undecided.")
+    state: State | None = Field(
+        None, description="Where every run begins; what is left out is as where the policy's plan began."
+    )
+
+    @model_validator(mode="after")
+    def _bounded(self) -> Self:
+        if self.runs * self.max_steps > MAX_WORK:
+            raise ValueError(f"runs times max_steps is at most {MAX_WORK}")
+        return self
+
+
+Bar = Annotated[list[int], Field(min_length=2, max_length=2)]
+
+
+class StepCounts(BaseModel):
+    """How many steps the runs took."""
+
+    histogram: list[Bar] = Field(description="A number of steps and how many runs took it, ascending.")
+
+
+class SimulateResponse(BaseModel):
+    """How the runs ended. Steps are counted until the outcome was decided, or the run cut off."""
+
+    runs: int
+    seed: int
+    satisfied: int = Field(description="The policy's formula holds, or will if the policy goes on for ever.")
+    lost: int = Field(description="It cannot hold any more.")
+    undecided: int = Field(description="Cut off at `max_steps`.")
+    success_rate: float = Field(description="The share of `satisfied`.")
+    mean_steps: float
+    steps: StepCounts

@@ -11,7 +11,16 @@ import pytest
 
 from tests.service.conftest import check_problem
 
-ROUTES = ["/translate", "/translate/batch", "/learn", "/ground", "/plan", "/environments", "/policies/x/step"]
+ROUTES = [
+    "/translate",
+    "/translate/batch",
+    "/learn",
+    "/ground",
+    "/plan",
+    "/environments",
+    "/policies/x/step",
+    "/policies/x/simulate",
+]
 LESSON = {"contextual_query": "hold(sphere)", "environment": "toys"}
 
 

@@ -8,10 +8,9 @@ import httpx
 import pytest
 
 from models.world import toys_spec
-from tests.service.conftest import Snapshot, check_problem
+from tests.service.conftest import Snapshot, check_problem, plan
 
 SHIP = "Put the cylinder in the box, then put the box in the bedroom"
-WHERE = {"robot": {"at": "kitchen"}, "box": {"in": "kitchen"}, "sphere": {"in": "kitchen"}}
 TINY: dict[str, Any] = {
     "name": "tiny",
     "kind": "explicit",
@@ -24,13 +23,19 @@ TINY: dict[str, Any] = {
         {"from": 2, "action": "stay", "to": [[2, 1.0]]},
     ],
 }
-
-
-def plan(client: httpx.Client, **body: Any) -> dict[str, Any]:
-    response = client.post("/plan", json=body)
-    assert response.status_code == 200, response.text
-    answer: dict[str, Any] = response.json()
-    return answer
+RISKY: dict[str, Any] = {
+    "name": "risky",
+    "kind": "explicit",
+    "states": 3,
+    "initial": 0,
+    "labels": {"hurt": [1]},
+    "transitions": [
+        {"from": 0, "action": "run", "to": [[1, 0.9], [2, 0.1]]},
+        {"from": 0, "action": "walk", "to": [[1, 0.3], [2, 0.7]]},
+        {"from": 1, "action": "stay", "to": [[1, 1.0]]},
+        {"from": 2, "action": "stay", "to": [[2, 1.0]]},
+    ],
+}
 
 
 @pytest.mark.parametrize(
@@ -93,16 +98,88 @@ def test_an_explicit_environment_by_hand(client: httpx.Client) -> None:
 
 
 @pytest.mark.parametrize(
-    ("ltl", "outcome"),
-    [("a & !a", "unsatisfiable"), ("F (b & X F a)", "unreachable"), ("b", "unreachable"), ("X F b", "solved")],
+    ("ltl", "objective", "outcome"),
+    [
+        ("a & !a", "max", "unsatisfiable"),
+        ("F (b & X F a)", "max", "unreachable"),
+        ("b", "max", "unreachable"),
+        ("G F a", "max", "unreachable"),
+        ("a | !a", "min", "unsatisfiable"),
+        ("F b", "min", "unreachable"),
+    ],
 )
-def test_what_cannot_be_done_is_an_outcome(client: httpx.Client, ltl: str, outcome: str) -> None:
-    answer = plan(client, ltl=ltl, environment_spec=TINY)
-    assert answer["outcome"] == outcome
-    if outcome != "solved":
-        assert answer["probability"] == {"lower": 0.0, "upper": 0.0}
-        assert (answer["id"], answer["policy"], answer["expected_steps"]) == (None, None, None)
-        assert answer["trajectory"] == []
+def test_what_cannot_be_done_is_an_outcome(client: httpx.Client, ltl: str, objective: str, outcome: str) -> None:
+    answer = plan(client, ltl=ltl, environment_spec=TINY, options={"objective": objective, "verify": True})
+    assert (answer["outcome"], answer["objective"]) == (outcome, objective)
+    probability = 0.0 if objective == "max" else 1.0
+    assert answer["probability"] == {"lower": probability, "upper": probability}
+    for member in ("id", "policy", "expected_steps", "round_steps", "trajectory_loop", "verified"):
+        assert answer[member] is None
+    assert answer["trajectory"] == []
+
+
+def test_what_has_to_be_done_again_and_again(client: httpx.Client) -> None:
+    """Kitchen and bathroom are three rooms apart, so a round is six steps, and the robot begins at one end."""
+    patrol = "G F at(robot, kitchen) & G F at(robot, bathroom) & G !holding(sphere)"
+    answer = plan(client, ltl=patrol, environment="toys-4x1-sphere")
+    assert (answer["outcome"], answer["probability"]) == ("solved", {"lower": 1.0, "upper": 1.0})
+    assert answer["round_steps"] == {"lower": pytest.approx(6), "upper": pytest.approx(6)}
+    assert answer["trajectory_complete"]
+    loop, steps = answer["trajectory_loop"], answer["trajectory"]
+    assert steps[-1] == steps[loop]
+    rooms = {step["state"]["robot"]["at"] for step in steps[loop:]}
+    assert {"kitchen", "bathroom"} <= rooms
+    assert {step["action"] for step in steps} <= {"east", "west"}
+
+
+def test_what_has_to_be_kept(client: httpx.Client) -> None:
+    answer = plan(client, ltl="G !holding(sphere)", environment="toys-4x1-sphere")
+    assert (answer["outcome"], answer["probability"]) == ("solved", {"lower": 1.0, "upper": 1.0})
+    assert answer["expected_steps"] == 0
+    assert answer["trajectory_loop"] is not None
+
+
+def test_a_task_that_ends_has_neither_rounds_nor_a_loop(client: httpx.Client) -> None:
+    answer = plan(client, ltl="F b", environment_spec=TINY)
+    assert (answer["round_steps"], answer["trajectory_loop"], answer["verified"]) == (None, None, None)
+    assert answer["objective"] == "max"
+
+
+@pytest.mark.parametrize(("objective", "probability"), [("max", 0.9), ("min", 0.3)])
+def test_the_greatest_and_the_least_probability(client: httpx.Client, objective: str, probability: float) -> None:
+    options = {"objective": objective, "verify": True}
+    answer = plan(client, ltl="F hurt", environment_spec=RISKY, options=options)
+    assert answer["ltl"] == "F hurt"
+    assert answer["probability"]["lower"] <= probability + 1e-9
+    assert answer["probability"]["upper"] >= probability - 1e-9
+    assert answer["verified"] == {
+        "probability": pytest.approx(probability),
+        "expected_steps": pytest.approx(1.0),
+        "sound": True,
+        "states": 3,
+    }
+    policy = client.get(answer["policy"]["url"]).json()
+    assert (policy["ltl"], policy["objective"]) == ("F hurt", objective)
+    assert (policy["formula"] == "F hurt") == (objective == "max")
+    told = client.post(f"{answer['policy']['url']}/step", json={"state": answer["initial"]["state"]}).json()
+    assert told["action"] == {"max": "run", "min": "walk"}[objective]
+    assert told["probability"] == pytest.approx({"max": 0.9, "min": 0.7}[objective]), "of the policy's own formula"
+
+
+def test_a_loop_beyond_the_longest_trajectory_is_cut(client: httpx.Client) -> None:
+    count = 1_200
+    ring = {
+        "name": "ring",
+        "kind": "explicit",
+        "states": count,
+        "initial": 0,
+        "labels": {"end": [count - 1]},
+        "transitions": [{"from": state, "action": "on", "to": [[(state + 1) % count, 1.0]]} for state in range(count)],
+    }
+    answer = plan(client, ltl="G F end", environment_spec=ring)
+    assert len(answer["trajectory"]) == 1_000
+    assert (answer["trajectory_complete"], answer["trajectory_loop"]) == (False, None)
+    assert answer["round_steps"]["lower"] <= count
 
 
 def test_planning_from_a_given_state(client: httpx.Client) -> None:
@@ -112,45 +189,9 @@ def test_planning_from_a_given_state(client: httpx.Client) -> None:
     assert answer["initial"]["state"]["sphere"] == {"in": "robot"}
 
 
-def test_a_moved_robot_goes_on_from_where_it_is(client: httpx.Client) -> None:
-    answer = plan(client, text="Pickup the sphere", environment="toys-4x1-sphere")
-    start = answer["initial"]["state"]
-    moved = {**start, "robot": {"at": start["sphere"]["in"]}}
-    told = client.post(f"{answer['policy']['url']}/step", json={"state": moved}).json()
-    assert told["action"] == "pick(sphere)"
-    assert told["expected_steps"] == 1
-
-
-def test_the_whole_policy_decodes_as_documented(client: httpx.Client) -> None:
-    answer = plan(client, text=SHIP, environment="toys-4x1-cylinder")
-    policy = client.get(answer["policy"]["url"]).json()
-    assert policy["states"] * policy["memories"] == len(policy["action"]) == len(policy["next_memory"])
-    memory = answer["initial"]["memory"]
-    for step in answer["trajectory"]:
-        index = sum(
-            variable["stride"] * variable["values"].index(step["state"][variable["object"]][variable["attribute"]])
-            for variable in policy["variables"]
-        )
-        entry = memory * policy["states"] + index
-        action = policy["action"][entry]
-        assert (policy["actions"][action] if action >= 0 else None) == step["action"]
-        assert memory == step["memory"]
-        memory = policy["next_memory"][entry]
-    assert policy["accepted"][memory] == 1
-
-
-def test_the_automaton_as_hoa(client: httpx.Client) -> None:
-    answer = plan(client, text=SHIP, environment="toys-4x1-cylinder")
-    response = client.get(f"{answer['policy']['url']}/automaton")
-    assert response.text.startswith("HOA: v1")
-    assert "in(cylinder, box)" in response.text
-
-
 @pytest.mark.parametrize(
     ("change", "slug", "status", "pointers"),
     [
-        ({"ltl": "G F holding(sphere)"}, "formula-not-cosafe", 422, ["/ltl"]),
-        ({"ltl": "G !holding(sphere)"}, "formula-not-cosafe", 422, ["/ltl"]),
         ({"ltl": "F"}, "formula-syntax", 422, ["/ltl"]),
         ({"ltl": "F holding(box, sphere)"}, "unknown-proposition", 422, ["/ltl"]),
         ({"ltl": "F in(box, sphere)"}, "type-mismatch", 422, ["/ltl"]),
@@ -168,6 +209,8 @@ def test_the_automaton_as_hoa(client: httpx.Client) -> None:
         ({"environment": None}, "validation", 422, [""]),
         ({"options": {"epsilon": 0}}, "validation", 422, ["/options/epsilon"]),
         ({"options": {"max_states": 10}}, "model-too-large", 422, ["/options/max_states"]),
+        ({"options": {"objective": "average"}}, "validation", 422, ["/options/objective"]),
+        ({"options": {"verify": 1}}, "validation", 422, ["/options/verify"]),
         ({"options": {"speed": "fast"}}, "validation", 422, ["/options/speed"]),
         (
             {"environment": None, "environment_spec": {**TINY, "initial": 9}},
@@ -208,48 +251,7 @@ def test_refusals(
 
 def test_a_plan_that_takes_too_long_is_stopped(client: httpx.Client) -> None:
     large = toys_spec(columns=5, rows=4, toys=[("sphere", "red"), ("cube", "blue"), ("cone", "green")], slip=0.1)
-    body = {"contextual_query": "pickup(sphere)", "environment_spec": large, "options": {"timeout_s": 0.05}}
+    task = "G F holding(sphere) & G F holding(cube) & G F holding(cone)"
+    body = {"ltl": task, "environment_spec": large, "options": {"timeout_s": 0.2}}
     check_problem(client.post("/plan", json=body), "out-of-time", 422)
     assert client.get("/livez").status_code == 200
-
-
-@pytest.mark.parametrize(
-    ("body", "slug", "pointers"),
-    [
-        ({"state": {"robot": {"at": "moon"}}}, "invalid-state", None),
-        ({"state": {"moon": {"at": "kitchen"}}}, "invalid-state", None),
-        ({"state": {**WHERE, "box": {"in": "robot"}, "sphere": {"in": "robot"}}}, "invalid-state", None),
-        ({"state": {}}, "invalid-state", ["/state/robot/at", "/state/box/in", "/state/sphere/in"]),
-        ({"state": {"robot": {"at": "kitchen"}, "box": {"in": "kitchen"}}}, "invalid-state", ["/state/sphere/in"]),
-        ({"state": WHERE, "memory": 99}, "invalid-memory", ["/memory"]),
-        ({"state": WHERE, "memory": -1}, "validation", ["/memory"]),
-        ({"memory": 0}, "validation", ["/state"]),
-    ],
-)
-def test_step_refuses_with_the_place(
-    client: httpx.Client, body: dict[str, Any], slug: str, pointers: list[str] | None
-) -> None:
-    url = plan(client, text="Pickup the sphere", environment="toys-4x1-sphere")["policy"]["url"]
-    problem = check_problem(client.post(f"{url}/step", json=body), slug, 422, pointers)
-    if slug == "invalid-state":
-        assert problem["errors"][0]["pointer"].startswith("/state")
-
-
-def test_unknown_policies(client: httpx.Client) -> None:
-    check_problem(client.get("/policies/none"), "unknown-policy", 404)
-    check_problem(client.get("/policies/none/automaton"), "unknown-policy", 404)
-    check_problem(client.post("/policies/none/step", json={"state": {}}), "unknown-policy", 404)
-
-
-def test_policies_are_listed_and_deleted(client: httpx.Client) -> None:
-    answer = plan(client, ltl="F (holding(sphere) & F holding(box))", environment="toys-4x1-sphere")
-    rows, cursor = [], ""
-    while cursor is not None:
-        page = client.get("/policies", params={"limit": 3, "cursor": cursor}).json()
-        rows += page["items"]
-        cursor = page["next"]
-    assert {"id": answer["id"], "environment": "toys-4x1-sphere", "ltl": answer["ltl"]} in rows
-    assert len(rows) == len({row["id"] for row in rows})
-    assert client.delete(answer["policy"]["url"]).status_code == 204
-    check_problem(client.get(answer["policy"]["url"]), "unknown-policy", 404)
-    check_problem(client.delete(answer["policy"]["url"]), "unknown-policy", 404)

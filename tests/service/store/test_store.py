@@ -7,14 +7,22 @@ import threading
 from pathlib import Path
 
 import pytest
+from alembic import command
 from alembic.autogenerate import compare_metadata
+from alembic.config import Config
 from alembic.migration import MigrationContext
 from sqlalchemy import inspect
 
-from service.errors import EnvironmentExistsError, UnknownEnvironmentError, UnknownTemplateError
+from service.errors import (
+    EnvironmentExistsError,
+    UnknownEnvironmentError,
+    UnknownPolicyError,
+    UnknownTemplateError,
+)
 from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate
 from service.store.engine import open_engine
 from service.store.migrate import migrate
+from service.store.policies import PolicyEntry
 from service.store.tables import metadata
 
 
@@ -57,28 +65,54 @@ def test_migrating_twice_changes_nothing(url: str) -> None:
     store.close()
 
 
-def test_the_first_revision_can_be_undone(url: str) -> None:
-    from alembic import command
-    from alembic.config import Config
-
+def alembic(url: str) -> Config:
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parents[3] / "migrations"))
     config.attributes["url"] = url
-    command.downgrade(config, "base")
+    return config
+
+
+def test_the_first_revision_can_be_undone(url: str) -> None:
+    command.downgrade(alembic(url), "base")
     engine = open_engine(url)
     assert set(inspect(engine).get_table_names()) == {"alembic_version"}
     engine.dispose()
 
 
-def test_rows_come_back_as_they_were_put(url: str) -> None:
+def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'store.sqlite3'}"
+    command.upgrade(alembic(url), "0002")
     store = Store(url)
+    with store.write() as transaction:
+        transaction.templates.put(template("t"))
+        transaction.environments.add("e", "oomdp", {"a": 1})
+        old = "INSERT INTO policies (id, environment, ltl, data) VALUES (?, ?, ?, ?)"
+        transaction.connection.exec_driver_sql(old, ("p", "e", "F a", b"cqltl\x00p1"))
+    migrate(url)
+    new = StoredPolicy("p", "e", "F a", "max", "{}", b"cqltl\x00p2")
+    with store.write() as transaction:
+        assert transaction.policies.page(limit=9) == []
+        with pytest.raises(UnknownPolicyError):
+            transaction.policies.get("p")
+        assert transaction.templates.get("t") == template("t")
+        assert transaction.environments.get("e").data == {"a": 1}
+        transaction.policies.add(new)
+    command.downgrade(alembic(url), "0002")
+    migrate(url)
+    with store.read() as transaction:
+        assert transaction.policies.page(limit=9) == []
+    store.close()
+
+
+def test_rows_come_back_as_they_were_put(url: str) -> None:
+    store, policy = Store(url), StoredPolicy("p", "e", "F a", "min", '{"name": "e"}', b"\x00\xff")
     with store.write() as transaction:
         transaction.templates.put(template("b"))
         transaction.templates.put(template("a"))
         transaction.templates.put(template("a", 2))
         transaction.environments.add("e", "oomdp", {"z": [1], "a": {"nested": "ö"}})
-        transaction.policies.add(StoredPolicy("p", "e", "F a", b"\x00\xff"))
-        transaction.policies.add(StoredPolicy("p", "e", "F a", b"\x00\xff"))
+        transaction.policies.add(policy)
+        transaction.policies.add(policy)
     with store.read() as transaction:
         assert transaction.templates.page(limit=9) == [template("a", 2), template("b")]
         assert transaction.templates.page(after="a", limit=9) == [template("b")]
@@ -87,7 +121,8 @@ def test_rows_come_back_as_they_were_put(url: str) -> None:
         assert transaction.templates.among([]) == {}
         assert list(transaction.environments.get("e").data) == ["z", "a"]
         assert json.loads(transaction.environments.text("e")) == {"z": [1], "a": {"nested": "ö"}}
-        assert transaction.policies.get("p").data == b"\x00\xff"
+        assert transaction.policies.get("p") == policy
+        assert transaction.policies.page(limit=9) == [PolicyEntry("p", "e", "F a", "min")]
     store.close()
 
 

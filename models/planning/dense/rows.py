@@ -1,0 +1,384 @@
+"""Compiled passes over the rows of a dense world. `models.planning.dense` says what rows, entries and effects are."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from models.planning.kernels import jit
+
+INFINITE = 2**30
+"""Distance of what leads nowhere."""
+
+
+@jit
+def compress(tables, effects, n, rows, start):
+    """The entries of `rows` rows of `n` states, the first of which is row `start`, and the parts in which states are
+    valid.
+
+    Returns `first_entry` [rows + 1], `effect`, `begin`, `end` (by entry), and `valid` [rows * n].
+    """
+    variables = len(tables.radix)
+    actions = len(tables.scope_inner)
+    digits = np.zeros(variables, dtype=np.int64)
+    rest = start
+    for v in range(variables - 1, -1, -1):
+        digits[v] = rest % tables.radix[v]
+        rest //= tables.radix[v]
+    first = np.zeros(rows + 1, dtype=np.int64)
+    capacity = max(16, rows * 4)
+    effect = np.empty(capacity, dtype=np.int32)
+    begin = np.empty(capacity, dtype=np.int32)
+    end = np.empty(capacity, dtype=np.int32)
+    valid = np.zeros(rows * n, dtype=np.bool_)
+    allowed = np.empty(n, dtype=np.bool_)
+    mask = np.empty(n, dtype=np.bool_)
+    acting = np.empty(n, dtype=np.bool_)
+    sums = np.empty(n, dtype=np.int32)
+    stay = len(effects.action) - 1
+    count = 0
+    for row in range(rows):
+        if row > 0:
+            v = variables - 1
+            while v >= 0:
+                digits[v] += 1
+                if digits[v] < tables.radix[v]:
+                    break
+                digits[v] = 0
+                v -= 1
+        allowed[:] = True
+        if holds(tables, 0, digits, n, allowed, sums):
+            valid[row * n : (row + 1) * n] = allowed
+            acting[:] = False
+            if count + (actions + 2) * n > capacity:
+                capacity = 2 * capacity + (actions + 2) * n
+                effect, begin, end = _grown(effect, capacity), _grown(begin, capacity), _grown(end, capacity)
+            for action in range(actions):
+                mask[:] = allowed
+                if not holds(tables, action + 1, digits, n, mask, sums):
+                    continue
+                base = tables.first_effect[action]
+                for place in range(tables.scope[action], tables.scope[action + 1]):
+                    base += tables.scope_multiplier[place] * digits[tables.scope_variable[place]]
+                each = tables.scope_inner[action]
+                last = -1
+                for j in range(n):
+                    if mask[j]:
+                        acting[j] = True
+                        one = base + tables.place_effect[action, j] if each else base
+                        if last == j and effect[count - 1] == one:
+                            end[count - 1] = j + 1
+                        else:
+                            effect[count], begin[count], end[count] = one, j, j + 1
+                            count += 1
+                        last = j + 1
+            last = -1
+            for j in range(n):
+                if allowed[j] and not acting[j]:
+                    if last == j:
+                        end[count - 1] = j + 1
+                    else:
+                        effect[count], begin[count], end[count] = stay, j, j + 1
+                        count += 1
+                    last = j + 1
+        first[row + 1] = count
+    return first, effect[:count].copy(), begin[:count].copy(), end[:count].copy(), valid
+
+
+@jit
+def _grown(array, capacity):
+    larger = np.empty(capacity, dtype=array.dtype)
+    larger[: len(array)] = array
+    return larger
+
+
+@jit
+def holds(tables, group, digits, n, mask, sums):
+    """Take out of `mask` the states of a row in which some range of the group does not hold; whether any is left."""
+    for one in range(tables.group[group], tables.group[group + 1]):
+        total = 0
+        table = tables.table[one]
+        stop = tables.table[one + 1]
+        while table < stop and not tables.inner[table]:
+            total += tables.data[_place(tables, table, digits)]
+            table += 1
+        low, high = np.int32(tables.low[one] - total), np.int32(tables.high[one] - total)
+        if table == stop:
+            if low > 0 or high < 0:
+                return False
+            continue
+        if stop - table == 1:
+            place = np.uintp(_place(tables, table, digits))
+            for j in range(np.uintp(n)):
+                found = np.int32(tables.data[place + j])
+                mask[j] = mask[j] & (low <= found) & (found <= high)
+        else:
+            sums[:] = 0
+            for inner in range(table, stop):
+                place = np.uintp(_place(tables, inner, digits))
+                for j in range(np.uintp(n)):
+                    sums[j] += np.int32(tables.data[place + j])
+            for j in range(np.uintp(n)):
+                mask[j] = mask[j] & (low <= sums[j]) & (sums[j] <= high)
+        if not mask.any():
+            return False
+    return True
+
+
+@jit
+def _place(tables, table, digits):
+    """Where a table's value for the digits of a row is, or its values begin."""
+    place = tables.offset[table]
+    for read in range(tables.reads[table], tables.reads[table + 1]):
+        place += tables.multiplier[read] * digits[tables.variable[read]]
+    return place
+
+
+@jit
+def split(letter, valid, n, rows):
+    """Cut the valid states of each row where the letter changes.
+
+    Returns `first_part` [rows + 1] and by part `begin`, `end` and `letter` (int32).
+    """
+    first = np.zeros(rows + 1, dtype=np.int64)
+    count = 0
+    for row in range(rows):
+        last = -1
+        for j in range(n):
+            at = row * n + j
+            if valid[at]:
+                if last != j or letter[at] != letter[at - 1]:
+                    count += 1
+                last = j + 1
+        first[row + 1] = count
+    begin = np.empty(count, dtype=np.int32)
+    end = np.empty(count, dtype=np.int32)
+    read = np.empty(count, dtype=np.int32)
+    for row in range(rows):
+        part = first[row] - 1
+        last = -1
+        for j in range(n):
+            at = row * n + j
+            if valid[at]:
+                if last == j and letter[at] == letter[at - 1]:
+                    end[part] = j + 1
+                else:
+                    part += 1
+                    begin[part], end[part], read[part] = j, j + 1, letter[at]
+                last = j + 1
+    return first, begin, end, read
+
+
+@jit
+def accept(world, after, distance):
+    """Write distance 0 where reading a state's label makes the formula hold ([live, states], by memory before)."""
+    n = world.length
+    for row in range(len(world.first_part) - 1):
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            for memory in range(after.shape[0]):
+                if after[memory, world.letter[part]] == -1:
+                    distance[memory, row * n + world.part_begin[part] : row * n + world.part_end[part]] = 0
+
+
+@jit
+def all_reached(world, after, distance):
+    """Whether every valid state has a distance in every memory that its label does not decide."""
+    n = world.length
+    for row in range(len(world.first_part) - 1):
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            for memory in range(after.shape[0]):
+                if after[memory, world.letter[part]] >= 0:
+                    for j in range(world.part_begin[part], world.part_end[part]):
+                        if distance[memory, row * n + j] >= INFINITE:
+                            return False
+    return True
+
+
+@jit
+def nearness(world, distance):
+    """[rows] the sum of the distances of each row."""
+    n = world.length
+    rows = len(world.first_part) - 1
+    total = np.zeros(rows, dtype=np.int64)
+    for memory in range(distance.shape[0]):
+        for row in range(rows):
+            for j in range(row * n, row * n + n):
+                if distance[memory, j] < INFINITE:
+                    total[row] += distance[memory, j]
+    return total
+
+
+@jit
+def approach(world, effects, after, distance, inside, backwards):
+    """Shorten the distances of a search: 1 + the least over choices of their nearest outcome.
+
+    `distance` [live, states] is by memory before reading; only choices all of whose outcomes are `inside` ([live,
+    states], or of length 0 for all) count. Returns how many distances changed.
+    """
+    n = world.length
+    rows = len(world.first_entry) - 1
+    live = after.shape[0]
+    restricted = inside.shape[0] > 0
+    states = rows * n
+    flat = distance.reshape(-1)
+    best = np.empty(n, dtype=np.int32)
+    changed = 0
+    for step in range(rows):
+        row = rows - 1 - step if backwards else step
+        base = row * n
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            for memory in range(live):
+                then = after[memory, world.letter[part]]
+                if then < 0:
+                    continue
+                a, b = world.part_begin[part], world.part_end[part]
+                best[a:b] = INFINITE
+                for entry in range(world.first_entry[row], world.first_entry[row + 1]):
+                    lo, hi = max(a, world.begin[entry]), min(b, world.end[entry])
+                    if lo >= hi:
+                        continue
+                    effect = world.effect[entry]
+                    first, stop = effects.first[effect], effects.first[effect + 1]
+                    if restricted:
+                        for j in range(lo, hi):
+                            good = True
+                            for k in range(first, stop):
+                                good &= inside[then, base + j + effects.shift[k]]
+                            if good:
+                                for k in range(first, stop):
+                                    best[j] = min(best[j], distance[then, base + j + effects.shift[k]])
+                    else:
+                        for k in range(first, stop):
+                            at = np.uintp(then * states + base + effects.shift[k])
+                            for j in range(np.uintp(lo), np.uintp(hi)):
+                                found = flat[at + j]
+                                best[j] = found if found < best[j] else best[j]
+                at = np.uintp(memory * states + base)
+                for j in range(np.uintp(a), np.uintp(b)):
+                    found = best[j] + np.int32(1)
+                    less = found < flat[at + j]
+                    flat[at + j] = found if less else flat[at + j]
+                    changed += less
+    return changed
+
+
+@jit
+def lift(world, effects, after, value, cost, order):
+    """Raise lower bounds of the least expected costs ([live · states], by memory before reading); infinite where none
+    is; row by row in the given order. Returns the greatest rise.
+    """
+    n = world.length
+    rows = len(world.first_entry) - 1
+    live = after.shape[0]
+    states = rows * n
+    best = np.empty(n, dtype=value.dtype)
+    effect, begin, end = world.effect, world.begin, world.end
+    first_outcome, probability, shift = effects.first, effects.probability, effects.shift
+    rise = 0.0
+    for step in range(rows):
+        row = order[step]
+        base = row * n
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            a, b = world.part_begin[part], world.part_end[part]
+            for memory in range(live):
+                then = after[memory, world.letter[part]]
+                if then < 0:
+                    continue
+                for j in range(np.uintp(a), np.uintp(b)):
+                    best[j] = np.inf
+                entered = then * states + base
+                for entry in range(world.first_entry[row], world.first_entry[row + 1]):
+                    lo, hi = max(a, begin[entry]), min(b, end[entry])
+                    if lo < hi:
+                        lower(effect[entry], first_outcome, probability, shift, cost, value, entered, lo, hi, best)
+                at = np.uintp(memory * states + base)
+                for j in range(np.uintp(a), np.uintp(b)):
+                    more = best[j] - value[at + j]
+                    if more > 0.0 and best[j] < np.inf:
+                        value[at + j] = best[j]
+                        rise = more if more > rise else rise
+    return rise
+
+
+@jit
+def lower(effect, first_outcome, probability, shift, cost, value, entered, lo, hi, best):
+    """Take the lesser of `best` and what an effect is worth, for the states lo .. hi - 1 of the row whose values of
+    what is entered begin at `entered`.
+
+    Indices are unsigned: one that might be negative keeps the compiler from using vector instructions.
+    """
+    first, stop = first_outcome[effect], first_outcome[effect + 1]
+    paid = cost[effect]
+    begin, end = np.uintp(lo), np.uintp(hi)
+    p = probability[first]
+    x = np.uintp(entered + shift[first])
+    if stop - first == 1:
+        for j in range(begin, end):
+            worth = paid + value[x + j]
+            best[j] = worth if worth < best[j] else best[j]
+        return
+    q = probability[first + 1]
+    y = np.uintp(entered + shift[first + 1])
+    if stop - first == 2:
+        for j in range(begin, end):
+            worth = paid + p * value[x + j] + q * value[y + j]
+            best[j] = worth if worth < best[j] else best[j]
+        return
+    r = probability[first + 2]
+    z = np.uintp(entered + shift[first + 2])
+    if stop - first == 3:
+        for j in range(begin, end):
+            worth = paid + p * value[x + j] + q * value[y + j] + r * value[z + j]
+            best[j] = worth if worth < best[j] else best[j]
+        return
+    for j in range(begin, end):
+        worth = paid + p * value[x + j] + q * value[y + j] + r * value[z + j]
+        for k in range(first + 3, stop):
+            worth += probability[k] * value[np.uintp(entered + shift[k]) + j]
+        best[j] = worth if worth < best[j] else best[j]
+
+
+@jit
+def choose(world, effects, after, value, cost, tie, action, steps):
+    """The first action of each undecided product state whose value is the least, but for a relative difference `tie`
+    to the one that replaces it.
+
+    `action` and `steps` ([live · states]) are by memory after reading; an action is -1 where the value is infinite and
+    -2 where none is possible. Returns the greatest excess over `value` of what a choice is worth.
+    """
+    n = world.length
+    rows = len(world.first_entry) - 1
+    live = after.shape[0]
+    states = rows * n
+    excess = 0.0
+    worth = np.empty(n, dtype=value.dtype)
+    for row in range(rows):
+        base = row * n
+        for then in range(live):
+            entered = then * states + base
+            at = np.uintp(entered)
+            for j in range(np.uintp(n)):
+                action[at + j] = -1
+                steps[at + j] = np.inf
+            for entry in range(world.first_entry[row], world.first_entry[row + 1]):
+                lo, hi = world.begin[entry], world.end[entry]
+                effect = world.effect[entry]
+                number = effects.action[effect] if effects.action[effect] >= 0 else -2
+                for j in range(np.uintp(lo), np.uintp(hi)):
+                    worth[j] = np.inf
+                lower(effect, effects.first, effects.probability, effects.shift, cost, value, entered, lo, hi, worth)
+                for j in range(np.uintp(lo), np.uintp(hi)):
+                    slack = tie * worth[j] if worth[j] > 1.0 else tie
+                    better = worth[j] + slack < steps[at + j]
+                    action[at + j] = number if better else action[at + j]
+                    steps[at + j] = worth[j] if better else steps[at + j]
+            for part in range(world.first_part[row], world.first_part[row + 1]):
+                for memory in range(live):
+                    if after[memory, world.letter[part]] == then:
+                        before = np.uintp(memory * states + base)
+                        for j in range(np.uintp(world.part_begin[part]), np.uintp(world.part_end[part])):
+                            if steps[at + j] < np.inf:
+                                more = steps[at + j] - value[before + j]
+                                excess = more if more > excess else excess
+            for j in range(np.uintp(n)):
+                steps[at + j] = steps[at + j] if steps[at + j] < np.inf else 0.0
+    return excess
