@@ -16,7 +16,9 @@ from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms
 MAX_ATOMS = 16
 """Most distinct atoms in what is translated or compared."""
 MAX_OBLIGATIONS = 2_048
-"""Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
+"""Largest guess at the work (`effort.obligations`) with which Spot is called for more than FEW_ATOMS: it has been tried
+on thousands of random formulas, and is far too high for the long ones over few atoms, whose parts repeat each other."""
+FEW_ATOMS = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +32,7 @@ class Vocabulary:
         found = tuple(dict.fromkeys(atom for formula in formulas for atom in atoms(formula)))
         if len(found) > MAX_ATOMS:
             raise FormulaTooLargeError(f"there are {len(found)} different atoms; at most {MAX_ATOMS} can be handled")
-        if any(obligations(formula) > MAX_OBLIGATIONS for formula in formulas):
+        if len(found) > FEW_ATOMS and any(obligations(formula) > MAX_OBLIGATIONS for formula in formulas):
             raise FormulaTooLargeError("the formula asks for too many things at once for an automaton to keep apart")
         return cls(found)
 

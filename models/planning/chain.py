@@ -33,10 +33,13 @@ class Chain:
 
 
 def explore(world: World, policy: Policy, *, most: int = MOST_STATES) -> Chain:
-    """Follow `policy` in `world` from the policy's initial state and memory, through at most about `most` states."""
+    """Follow `policy` in `world` from the policy's initial state and memory, through at most `most` product states.
+
+    States are told apart by their places: what has no place in the policy does not change while it is followed.
+    """
     state = np.array([policy.initial_state], dtype=np.int64)
     after = policy.after(state, np.array([policy.initial_memory], dtype=np.int32))
-    known = state * policy.memories + after  # keys in ascending order, and the number of each
+    known = policy.place(state) * policy.memories + after  # keys in ascending order, and the number of each
     number = np.zeros(1, dtype=np.int64)
     states, afters, actions, edges = [], [], [], []
     count = 1
@@ -46,15 +49,18 @@ def explore(world: World, policy: Policy, *, most: int = MOST_STATES) -> Chain:
         afters.append(after)
         actions.append(action)
         source, target, probability = _move(world, state, action)
-        keys = target * policy.memories + policy.after(target, after[source])
-        fresh = np.setdiff1d(keys, known)
+        memory = policy.after(target, after[source])
+        keys = policy.place(target) * policy.memories + memory
+        fresh, where = np.unique(keys, return_index=True)
+        new = ~np.isin(fresh, known, assume_unique=True)
+        fresh, where = fresh[new], where[new]
         merged = np.concatenate([known, fresh])
         numbers = np.concatenate([number, np.arange(count, count + len(fresh))])
         order = np.argsort(merged, kind="stable")
         known, number = merged[order], numbers[order]
         edges.append((source + count - len(state), number[np.searchsorted(known, keys)], probability))
         count += len(fresh)
-        state, after = fresh // policy.memories, (fresh % policy.memories).astype(np.int32)
+        state, after = target[where], memory[where]
     source, target, probability = (np.concatenate(parts) for parts in zip(*edges, strict=True))
     seen = sum(map(len, states))
     inside = target < seen

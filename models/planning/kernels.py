@@ -40,29 +40,28 @@ def narrow(first, constant, start, successor, probability, lower, upper, margin,
 
 
 @jit
-def lift(first, constant, start, successor, probability, x, backwards):
-    """Raise lower bounds of minimal values; returns the greatest rise."""
-    n = len(first) - 1
-    rise = 0.0
-    for step in range(n):
-        node = n - 1 - step if backwards else step
+def improve(first, constant, start, successor, probability, x, policy):
+    """Minimal values and the choices that have them, in the order of the nodes; returns the greatest change."""
+    change = 0.0
+    for node in range(len(first) - 1):
         best = np.inf
         for choice in range(first[node], first[node + 1]):
             worth = constant[choice]
             for outcome in range(start[choice], start[choice + 1]):
                 worth += probability[outcome] * x[successor[outcome]]
-            best = min(best, worth)
-        if best > x[node]:
-            rise = max(rise, best - x[node])
-            x[node] = best
-    return rise
+            if worth < best:
+                best = worth
+                policy[node] = choice
+        change = max(change, abs(best - x[node]))
+        x[node] = best
+    return change
 
 
 @jit
 def greedy(first, constant, start, successor, probability, x, maximise, tie, policy):
     """Write the first choice of each node whose value is best up to `tie` · max(1, |best|) into `policy`.
 
-    Returns the greatest excess of the value of a choice taken over `x`, and the greatest shortfall.
+    Returns the greatest excess of the value of a choice taken over `x`, and the greatest shortfall of the best one.
     """
     n = len(first) - 1
     worth = np.empty(0)
@@ -79,12 +78,12 @@ def greedy(first, constant, start, successor, probability, x, maximise, tie, pol
                 value += probability[outcome] * x[successor[outcome]]
             worth[place] = value
             best = max(best, value) if maximise else min(best, value)
+        below = max(below, x[node] - best)
         slack = tie * max(1.0, abs(best))
         for place in range(count):
             if (worth[place] >= best - slack) if maximise else (worth[place] <= best + slack):
                 policy[node] = first[node] + place
                 above = max(above, worth[place] - x[node])
-                below = max(below, x[node] - worth[place])
                 break
     return above, below
 

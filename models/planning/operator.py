@@ -19,6 +19,13 @@ DEVICE_FROM = 1_000_000
 """Outcomes from which device "auto" moves to a CUDA device."""
 
 
+PASSES = 10
+"""Most passes over the choices taken, for one over all of them: they are a fraction of all, and mostly stay."""
+
+SETTLED = 0.1
+"""How much less a pass changes than the one over all choices when another is not worth it."""
+
+
 class Operator(Protocol):
     """One pass at a time over `choices`. Vectors are the operator's own: `vector` makes them, `numpy` reads them."""
 
@@ -36,8 +43,11 @@ class Operator(Protocol):
     def narrow(self, lower: Any, upper: Any, sweep: int) -> float:
         """Improve bounds of maximal values in place, rounded outwards; returns the greatest gap."""
 
-    def lift(self, x: Any, sweep: int) -> float:
-        """Raise lower bounds of minimal values in place; returns the greatest rise."""
+    def improve(self, x: Any) -> float:
+        """Modified policy iteration on minimal values, in place: one pass over all choices, and a few over those that
+        were the best (Puterman and Shin, "Modified policy iteration algorithms for discounted Markov decision
+        problems", 1978). Returns the greatest change in the first pass.
+        """
 
     def settle(self, x: Any, sweep: int) -> float:
         """One step of the chain, where each unknown has one choice, in place; returns the greatest change."""
@@ -45,7 +55,7 @@ class Operator(Protocol):
     def greedy(self, x: Any, *, maximise: bool, tie: float) -> tuple[NDArray[Any], float, float]:
         """[n] by unknown, the first choice whose value is best up to `tie` · max(1, |best|).
 
-        Also how far the value of a choice taken exceeds `x`, at most, and how far it falls short.
+        Also how far the value of a choice taken exceeds `x`, at most, and how far the best one falls short.
         """
 
 
@@ -56,6 +66,7 @@ class KernelOperator:
         self.choices = choices
         self._arrays = choices.arrays
         self._chain = np.arange(choices.unknowns, dtype=np.int32)
+        self._policy = np.zeros(choices.unknowns, dtype=np.int32)
 
     def vector(self, values: Vector | float) -> Vector:
         """See `Operator.vector`."""
@@ -73,9 +84,13 @@ class KernelOperator:
         """See `Operator.narrow`."""
         return float(kernels.narrow(*self._arrays, lower, upper, self.choices.roundoff, sweep % 2 == 0))
 
-    def lift(self, x: Vector, sweep: int) -> float:
-        """See `Operator.lift`."""
-        return float(kernels.lift(*self._arrays, x, sweep % 2 == 0))
+    def improve(self, x: Vector) -> float:
+        """See `Operator.improve`."""
+        change = float(kernels.improve(*self._arrays, x, self._policy))
+        for _ in range(PASSES):
+            if kernels.settle(self._policy, *self._arrays[1:], x, False) <= SETTLED * change:
+                break
+        return change
 
     def settle(self, x: Vector, sweep: int) -> float:
         """See `Operator.settle`."""

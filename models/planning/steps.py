@@ -4,16 +4,15 @@ A stochastic shortest path with positive costs (Bertsekas and Tsitsiklis, "An an
 problems", 1991) over the choices that keep the maximal probability, ending where the formula can no longer
 fail or can no longer be met. Staying undecided for ever is not optimal there, since it costs infinitely much.
 
-A step costs 1 unless the world says otherwise; let c be the least cost of any. Value iteration starts from below, so
-its vector v satisfies v <= T v. If no node's value rises by more than r c, r < 1, in a sweep, then u = v / (1 - r)
-satisfies
+A step costs 1 unless the world says otherwise; let c be the least cost of any, and T the optimality operator. Where the
+values v come from does not matter, since two inequalities turn them into bounds. If T v <= v + r c with r < 1, then
+u = v / (1 - r) satisfies T u <= u: to scale values but not a cost of at least c leaves at least r c / (1 - r) of it out,
 
-    T u <= (T v - r c) / (1 - r) <= (v + r c - r c) / (1 - r) = u,
+    T u <= (T v - r c) / (1 - r) <= v / (1 - r) = u,
 
-since scaling the values but not a cost of at least c leaves at least r c / (1 - r) of it out. So v <= optimum <=
-v / (1 - r). The same holds for the policy that is greedy in v up to ties, with r taken over
-its own choices: it decides the outcome with probability one and needs at most v / (1 - r) expected steps. It
-can therefore not circle on a tie, and its values need no further evaluation.
+and u is no less than the optimum. The same holds for the policy that is greedy in v up to ties, with r taken over its
+own choices: it decides the outcome with probability one and needs at most v / (1 - r). It can therefore not circle on a
+tie, and its values need no further evaluation. If v <= T v + r c, then v / (1 + r) is likewise no more than the optimum.
 """
 
 from __future__ import annotations
@@ -34,10 +33,10 @@ from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
 from models.planning.qualities import Qualities
-from models.planning.ragged import owners
+from models.planning.ragged import owners, spans
 
-RESIDUAL = 1e-11
-"""Rise in a sweep at which iteration stops: the relative error of the expected steps."""
+RESIDUAL = 1e-9
+"""Change in a sweep, in units of the least cost, at which iteration stops: the relative error of the expected steps."""
 
 TIE = 1e-9
 """Relative difference of expected steps within which the first action is taken."""
@@ -90,18 +89,20 @@ def fewest_steps(
     reached = reach(graph, ends, allowed=kept)
     if not reached.mask[:-2].all():
         return None
-    nodes = np.flatnonzero(qualities.possible[:-2])
+    nodes = np.flatnonzero(qualities.possible[:-2]).astype(np.int32)
+    nodes = nodes[np.argsort(reached.distance[nodes], kind="stable")]  # a sweep carries values on from the nearest ones
     chosen = np.full(product.nodes, -1, dtype=np.int32)
     lower, upper = np.zeros(product.nodes + 2), np.zeros(product.nodes + 2)
     if not len(nodes):
         return Steps(chosen, lower, upper)
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
     unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
-    rows = np.flatnonzero(kept)
+    rows = spans(product.first_choice, nodes)
+    rows = rows[kept[rows]]
     none = np.zeros(product.nodes + 2)
-    owner = unknown[owners(product.first_choice)[rows]]
+    owner = unknown[graph.owner[rows]]
     choices, taken = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=product.cost[rows])
-    towards = np.searchsorted(rows, reached.choice[nodes]).astype(np.int32)
+    towards = np.flatnonzero(rows == reached.choice[graph.owner[rows]]).astype(np.int32)
     least = float(product.cost[rows].min())
     start: Vector = reached.distance[nodes].astype(np.float64) * least
     policy, low, error = _solve(choices, start, least, towards, int(unknown[initial]), options, progress)
@@ -127,37 +128,34 @@ def _solve(
     """
     operator = operator_of(choices, options.device)
     x = operator.vector(start)
+    residual = min(RESIDUAL, options.epsilon)
 
-    def tell(sweep: int, rise: float) -> None:
+    def tell(sweep: int, change: float) -> None:
         if progress is not no_progress:
             value = operator.at(x, watched) if watched >= 0 else 0.0
-            progress("steps", sweep, value, value / (1.0 - rise) if rise < 1.0 else np.inf, choices.unknowns)
+            upper = value / (1.0 - change) if change < 1.0 else np.inf
+            progress("steps", sweep, value / (1.0 + change), upper, choices.unknowns)
 
     for sweep in range(1, options.max_sweeps + 1):
-        rise = operator.lift(x, sweep) / least
-        tell(sweep, rise)
-        if rise <= RESIDUAL:
+        change = operator.improve(x) / least
+        tell(sweep, change)
+        if change <= residual:
             break
-        if sweep % DIRECT_AFTER == 0 and rise * least <= choices.roundoff * float(operator.numpy(x).max()):
+        if sweep % DIRECT_AFTER == 0 and change * least <= choices.roundoff * float(operator.numpy(x).max()):
             break
         if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-            x = _solve_directly(operator, x, towards, least, partial(tell, sweep, rise))
-    policy, error, _ = operator.greedy(x, maximise=False, tie=TIE)
-    error = max(error, 0.0) / least
-    return (policy if error < 1.0 else towards), operator.numpy(x), error
+            x = _solve_directly(operator, x, towards, least, partial(tell, sweep, change))
+    operator.improve(x)
+    policy, above, below = operator.greedy(x, maximise=False, tie=TIE)
+    low = operator.numpy(x) / (1.0 + max(below, 0.0) / least)
+    error = (max(above, 0.0) + max(below, 0.0)) / least
+    return (policy if error < 1.0 else towards), low, error
 
 
 def _solve_directly(
     operator: Operator, x: Any, towards: NDArray[np.int32], least: float, alive: Callable[[], None]
 ) -> Any:
-    """`x`, raised to the optimum from policy iteration, made a lower bound: if v <= T v + r c then v / (1 + r) <=
-    T (v / (1 + r)).
-    """
-    greedy, rise, _ = operator.greedy(x, maximise=False, tie=TIE)
-    improver = Improver(operator.choices, maximise=False)
-    proposal = improver.improve(greedy if rise < least else towards, alive)
-    if proposal is None:
-        return x
-    fall = float((proposal.value - improver.best(improver.values(proposal.value))[0]).max())
-    fall = max(fall, 0.0) + operator.choices.roundoff * float(proposal.value.max())
-    return operator.vector(np.maximum(operator.numpy(x), proposal.value / (1.0 + fall / least)))
+    """The optimum from policy iteration, if it gives one; else `x`."""
+    greedy, above, _ = operator.greedy(x, maximise=False, tie=TIE)
+    proposal = Improver(operator.choices, maximise=False).improve(greedy if above < least else towards, alive)
+    return x if proposal is None else operator.vector(proposal.value)

@@ -63,12 +63,12 @@ class TensorOperator:
         torch.minimum(upper, self._apply(upper, maximise=True).mul_(1.0 + margin), out=upper)
         return float((upper - lower).max())
 
-    def lift(self, x: torch.Tensor, sweep: int) -> float:  # noqa: ARG002  # all at once, in no order
-        """See `Operator.lift`."""
+    def improve(self, x: torch.Tensor) -> float:
+        """See `Operator.improve`; with no further passes."""
         out = self._apply(x, maximise=False)
-        rise = float((out - x).max())
-        torch.maximum(x, out, out=x)
-        return max(rise, 0.0)
+        change = float((out - x).abs().max())
+        x.copy_(out)
+        return change
 
     def settle(self, x: torch.Tensor, sweep: int) -> float:  # noqa: ARG002  # all at once, in no order
         """See `Operator.settle`."""
@@ -90,7 +90,8 @@ class TensorOperator:
             rank[:length][good] = number
         row = self._runs[rank.cpu().numpy()] + np.arange(len(best))
         excess = self._values[self._tensor(row)] - x
-        return self._choice[row][self.position], float(excess.max()), float(-excess.min())
+        short = x - best
+        return self._choice[row][self.position], float(excess.max()), float(short.max())
 
     def _apply(self, x: torch.Tensor, *, maximise: bool) -> torch.Tensor:
         """The best over each unknown's choices of their value."""

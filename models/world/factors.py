@@ -149,13 +149,14 @@ def _compared(value: Combined, holds: bool) -> Range | None:
     if not left.scope:
         left, right = right, left
         operation = _MIRRORED.get(operation, operation)  # type: ignore[call-overload]
-    if right.scope or not isinstance(right, Table) or float(right.array) != int(right.array):
+    if right.scope or not isinstance(right, Table) or not float(right.array).is_integer():
         return None
     terms = _terms(left)
     bounds = _BOUNDS[operation][0 if holds else 1]
     if terms is None or bounds is None:
         return None
-    return Range(terms, *bounds(int(right.array)))
+    number = min(max(int(right.array), -UNBOUNDED), UNBOUNDED)  # a sum of what there is in a world is far from either
+    return Range(terms, *bounds(number))
 
 
 def _terms(value: Value) -> tuple[Table, ...] | None:

@@ -62,12 +62,6 @@ STATUS: dict[str, int] = {
     "model-too-large": 422,
     "device-unavailable": 422,
     "drawing-too-large": 422,
-    # the command line's exchange with PRISM and Storm
-    "export-too-large": 422,
-    "storm-missing": 501,
-    "prism-syntax": 422,
-    "prism-constant": 422,
-    "prism-model": 422,
     "out-of-time": 422,
     # the service
     "overloaded": 503,

@@ -32,7 +32,13 @@ TIE = 1e-9
 
 
 STATE_BYTES = 16
-"""Per state: label, validity, entries of its row."""
+"""Per state: label (while it is read, 4 bytes and the truth of each atom) and validity."""
+
+ENTRY_BYTES = 24
+"""Per entry of a row: effect, begin and end, twice while their arrays grow."""
+
+SAMPLE = 32
+"""Rows looked at to estimate how many entries there are."""
 
 MEMORY_BYTES = 20
 """Per state and memory: value and cost (16), distance while they are not there yet, action, probability."""
@@ -84,7 +90,7 @@ def solve(
     if factored is None:
         return UNSURE
     after = _memories(automaton)
-    _check_bytes(world.size, len(after), options)
+    _check_bytes(world.size, len(after), factored, options)
     letter = automaton.letters(world.labels(automaton.atoms)).astype(narrowest(-1, after.shape[1]))
     dense = compress(factored, letter)
     letter[~dense.valid] = INVALID
@@ -119,8 +125,14 @@ def _rows(automaton: Automaton) -> NDArray[np.int32]:
     return number
 
 
-def _check_bytes(states: int, live: int, options: Options) -> None:
-    estimate = states * (STATE_BYTES + live * MEMORY_BYTES)
+def _check_bytes(states: int, live: int, world: Factored, options: Options) -> None:
+    """The entries of the rows are estimated from evenly spaced ones."""
+    tables, effects = flatten(world)
+    length = prod(world.radix[outer_variables(world) :])
+    count = states // length
+    sample = np.unique(np.linspace(0, count - 1, SAMPLE).astype(np.int64)).tolist()
+    entries = sum(len(rows.compress(tables, effects, length, 1, row)[1]) for row in sample) / len(sample)
+    estimate = states * (STATE_BYTES + live * MEMORY_BYTES) + int(count * entries) * ENTRY_BYTES
     if estimate > options.max_bytes:
         raise ModelTooLargeError(
             f"planning needs about {estimate} bytes ({states * live} product states); the limit is {options.max_bytes}",

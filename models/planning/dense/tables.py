@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import prod
 from typing import NamedTuple
 
@@ -79,8 +80,9 @@ def outer_variables(world: Factored) -> int:
     return outer
 
 
+@lru_cache(maxsize=16)
 def flatten(world: Factored) -> tuple[Tables, Effects]:
-    """The arrays of a world."""
+    """The arrays of a world, which is planned in again and again; not to be written to."""
     outer = outer_variables(world)
     made = _Building([], [], [0], [], [], [0], [], [], [])
     group = [0]
