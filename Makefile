@@ -41,6 +41,7 @@ $(BIN)/python:
 
 $(VENV)/.serve: pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	$(BIN)/python -m models.planning
 	touch $@
 
 $(VENV)/.dev: pyproject.toml | $(BIN)/python

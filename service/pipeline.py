@@ -56,6 +56,7 @@ class PlanOrder:
     device: Device
     objective: Objective
     verify: bool
+    relevance: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +108,7 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
         device=order.device,
         objective=order.objective,
         verify=order.verify,
+        relevance=order.relevance,
     )
     with (
         at("/state", only={"invalid-state"}),

@@ -31,9 +31,5 @@ class Solution:
 def smallest(array: NDArray[np.integer]) -> NDArray[np.signedinteger]:
     """The same numbers in the narrowest signed type that holds them."""
     low, high = int(array.min(initial=0)), int(array.max(initial=0))
-    return array.astype(narrowest(low, high))
-
-
-def narrowest(low: int, high: int) -> type[np.signedinteger]:
-    """The narrowest signed type that holds the numbers from `low` to `high`."""
-    return next(k for k in (np.int8, np.int16, np.int32) if np.iinfo(k).min <= low and high <= np.iinfo(k).max)
+    kind = next(k for k in (np.int8, np.int16, np.int32) if np.iinfo(k).min <= low and high <= np.iinfo(k).max)
+    return array.astype(kind)

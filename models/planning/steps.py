@@ -4,15 +4,15 @@ A stochastic shortest path with positive costs (Bertsekas and Tsitsiklis, "An an
 problems", 1991) over the choices that keep the maximal probability, ending where the formula can no longer
 fail or can no longer be met. Staying undecided for ever is not optimal there, since it costs infinitely much.
 
-A step costs 1 unless the world says otherwise; let c be the least cost of any, and T the optimality operator. Where the
-values v come from does not matter, since two inequalities turn them into bounds. If T v <= v + r c with r < 1, then
-u = v / (1 - r) satisfies T u <= u: to scale values but not a cost of at least c leaves at least r c / (1 - r) of it out,
+A step costs 1 unless the world says otherwise; let c be the least cost of any, and T the optimality operator. Where
+the values v come from does not matter, since two inequalities turn them into bounds. If T v <= v + r c with r < 1, then
+u = v / (1 - r) satisfies T u <= u: to scale values but not a cost of at least c leaves out at least r c / (1 - r),
 
     T u <= (T v - r c) / (1 - r) <= v / (1 - r) = u,
 
 and u is no less than the optimum. The same holds for the policy that is greedy in v up to ties, with r taken over its
 own choices: it decides the outcome with probability one and needs at most v / (1 - r). It can therefore not circle on a
-tie, and its values need no further evaluation. If v <= T v + r c, then v / (1 + r) is likewise no more than the optimum.
+tie, and its values need no further evaluation. If v <= T v + r c, then v / (1 + r) is no more than the optimum.
 """
 
 from __future__ import annotations

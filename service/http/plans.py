@@ -68,6 +68,7 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
         device=options.device,
         objective=options.objective,
         verify=options.verify,
+        relevance=options.relevance,
     )
     return _plan_out(await plan(services, order), order, time.perf_counter() - started)
 

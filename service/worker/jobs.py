@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from models.logic import Formula, equivalent, parse
 from models.queries import Template, review
-from models.world import State, World, compile_world, load_environment
+from models.world import State, World
 from service.worker.worlds import read_environment, read_world
 
 if TYPE_CHECKING:  # planning loads SciPy and numba, which the process for formula checks does without
@@ -38,6 +38,7 @@ class PlanJob:
     device: Device
     objective: Objective
     verify: bool
+    relevance: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +84,9 @@ class ReviewJob:
 
 def warm_planning() -> None:
     """Load what planning needs, and plan once so that nothing is left to load."""
-    from models.planning import Options, plan
-    from models.world import toys_spec
+    from models.planning.__main__ import warm
 
-    world = compile_world(load_environment(toys_spec(columns=2, rows=1, toys=[("sphere", "red")], slip=0.1)))
-    for task in ("F holding(sphere)", "G F holding(sphere) & G F !holding(sphere)"):
-        plan(world, parse(task), options=Options())
+    warm()
 
 
 def warm_logic() -> None:
@@ -102,7 +100,13 @@ def run_plan(job: PlanJob) -> PlanAnswer:
 
     world = read_world(job.environment)
     initial = world.initial if job.state is None else world.encode(job.state)
-    options = Options(epsilon=job.epsilon, max_states=job.max_states, device=job.device, objective=job.objective)
+    options = Options(
+        epsilon=job.epsilon,
+        max_states=job.max_states,
+        device=job.device,
+        objective=job.objective,
+        relevance=job.relevance,
+    )
     found = plan(world, job.formula, initial=initial, options=options)
     run = found.trajectory
     whole = run is not None and len(run.steps) <= MAX_STEPS

@@ -21,7 +21,7 @@ from models.planning.dense.tables import Effects, flatten, outer_variables
 from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import INVALID, NOTHING
-from models.planning.solution import Solution, narrowest
+from models.planning.solution import Solution, smallest
 from models.world import Factored, OomdpWorld, ProjectedWorld, World
 
 RESIDUAL = 1e-9
@@ -91,7 +91,7 @@ def solve(
         return UNSURE
     after = _memories(automaton)
     _check_bytes(world.size, len(after), factored, options)
-    letter = automaton.letters(world.labels(automaton.atoms)).astype(narrowest(-1, after.shape[1]))
+    letter = automaton.letters(world.labels(automaton.atoms))
     dense = compress(factored, letter)
     letter[~dense.valid] = INVALID
     distance = _sure_distance(dense, after, bool(automaton.rejecting.any()), progress)
@@ -194,7 +194,7 @@ def _cheapest(
         progress("steps", sweep, 0.0, np.inf, value.size)
         if rise <= RESIDUAL * least:
             break
-    action = np.empty(value.shape, dtype=narrowest(-2, int(world.effects.action.max(initial=0))))
+    action = np.empty(value.shape, dtype=np.int16)  # MAX_GROUNDINGS fit
     steps = np.empty(value.shape)
     excess = rows.choose(
         world.rows, world.effects, after, value.reshape(-1), cost, TIE, action.reshape(-1), steps.reshape(-1)
@@ -206,7 +206,7 @@ def _cheapest(
         return None
     reached = float(steps[row, start]) if row >= 0 else 0.0
     return Solution(
-        letter=letter,
+        letter=smallest(letter),
         action=action,
         probability=(action != NOTHING).astype(np.int8),
         expected_steps=steps,

@@ -80,10 +80,13 @@ def outer_variables(world: Factored) -> int:
     return outer
 
 
-@lru_cache(maxsize=16)
 def flatten(world: Factored) -> tuple[Tables, Effects]:
-    """The arrays of a world, which is planned in again and again; not to be written to."""
-    outer = outer_variables(world)
+    """The arrays of a world; not to be written to, as they are kept for when it is planned in again."""
+    return _flatten(world, outer_variables(world))
+
+
+@lru_cache(maxsize=16)
+def _flatten(world: Factored, outer: int) -> tuple[Tables, Effects]:
     made = _Building([], [], [0], [], [], [0], [], [], [])
     group = [0]
     for ranges in (world.valid, *(action.ranges for action in world.actions)):

@@ -35,6 +35,7 @@ class PlanOptions(Request):
     timeout_s: float = Field(30.0, gt=0, allow_inf_nan=False, description="Longest planning time, in seconds.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states.")
     device: Literal["auto", "cpu", "cuda"] = "auto"
+    relevance: bool = Field(True, description="Leave out of the world what the task cannot depend on.")
 
 
 class PlanRequest(Request):
