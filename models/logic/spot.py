@@ -16,9 +16,10 @@ from models.logic.formula import FALSE, TRUE, Atom, Constant, Formula, Op, atoms
 MAX_ATOMS = 16
 """Most distinct atoms in what is translated or compared."""
 MAX_OBLIGATIONS = 2_048
-"""Largest guess at the work (`effort.obligations`) with which Spot is called for more than FEW_ATOMS: it has been tried
-on thousands of random formulas, and is far too high for the long ones over few atoms, whose parts repeat each other."""
+"""Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
 FEW_ATOMS = 6
+MAX_OBLIGATIONS_OF_FEW = 1 << 27
+"""The same for at most FEW_ATOMS: parts of a long formula over few atoms repeat each other, and the guess is too high."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,8 @@ class Vocabulary:
         found = tuple(dict.fromkeys(atom for formula in formulas for atom in atoms(formula)))
         if len(found) > MAX_ATOMS:
             raise FormulaTooLargeError(f"there are {len(found)} different atoms; at most {MAX_ATOMS} can be handled")
-        if len(found) > FEW_ATOMS and any(obligations(formula) > MAX_OBLIGATIONS for formula in formulas):
+        limit = MAX_OBLIGATIONS_OF_FEW if len(found) <= FEW_ATOMS else MAX_OBLIGATIONS
+        if any(obligations(formula) > limit for formula in formulas):
             raise FormulaTooLargeError("the formula asks for too many things at once for an automaton to keep apart")
         return cls(found)
 

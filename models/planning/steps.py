@@ -35,7 +35,7 @@ from models.planning.product import Product
 from models.planning.qualities import Qualities
 from models.planning.ragged import owners, spans
 
-RESIDUAL = 1e-9
+RESIDUAL = 1e-8
 """Change in a sweep, in units of the least cost, at which iteration stops: the relative error of the expected steps."""
 
 TIE = 1e-9

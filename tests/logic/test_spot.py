@@ -341,7 +341,7 @@ def test_without_spot_a_sentence_says_how_to_get_it(monkeypatch: pytest.MonkeyPa
     monkeypatch.setitem(sys.modules, "spot", None)
     for call in (translate, is_cosafe, is_satisfiable, is_valid):
         with pytest.raises(SpotMissingError, match="pip install spottl") as caught:
-            call(parse("F a"))
+            call(parse("F never_seen_before"))
         assert caught.value.slug == "spot-missing"
     assert to_text(parse("F a")) == "F a"
     monkeypatch.setitem(sys.modules, "spot", SimpleNamespace())
