@@ -208,8 +208,8 @@ def nearness(world, distance):
 
 
 @jit
-def approach(world, effects, after, distance, inside, backwards):
-    """Shorten the distances of a search: 1 + the least over choices of their nearest outcome.
+def approach(world, effects, after, distance, inside, backwards, begin_row, end_row):
+    """Shorten the distances of a search in some rows: 1 + the least over choices of their nearest outcome.
 
     `distance` [live, states] is by memory before reading; only choices all of whose outcomes are `inside` ([live,
     states], or of length 0 for all) count. Returns how many distances changed.
@@ -222,8 +222,8 @@ def approach(world, effects, after, distance, inside, backwards):
     flat = distance.reshape(-1)
     best = np.empty(n, dtype=np.int32)
     changed = 0
-    for step in range(rows):
-        row = rows - 1 - step if backwards else step
+    for step in range(end_row - begin_row):
+        row = end_row - 1 - step if backwards else begin_row + step
         base = row * n
         for part in range(world.first_part[row], world.first_part[row + 1]):
             for memory in range(live):
@@ -262,19 +262,26 @@ def approach(world, effects, after, distance, inside, backwards):
 
 
 @jit
-def lift(world, effects, after, value, cost, order):
-    """Raise lower bounds of the least expected costs ([live · states], by memory before reading); infinite where none
-    is; row by row in the given order. Returns the greatest rise.
+def begin_at(distance, least, value):
+    """Write the distances at the least cost of a step into `value` ([live, states]), infinite where there is none."""
+    for memory in range(distance.shape[0]):
+        for state in range(distance.shape[1]):
+            found = distance[memory, state]
+            value[memory, state] = found * least if found < INFINITE else np.inf
+
+
+@jit
+def look_ahead(world, effects, after, value, cost, order, first, last, out):
+    """What the rows order[first] .. order[last - 1] are worth after one step, into `out` [row, live, length].
+
+    `value` is [live · states] by memory before reading, as is `out`; only what is undecided is written.
     """
     n = world.length
-    rows = len(world.first_entry) - 1
     live = after.shape[0]
-    states = rows * n
-    best = np.empty(n, dtype=value.dtype)
+    states = (len(world.first_entry) - 1) * n
     effect, begin, end = world.effect, world.begin, world.end
     first_outcome, probability, shift = effects.first, effects.probability, effects.shift
-    rise = 0.0
-    for step in range(rows):
+    for step in range(first, last):
         row = order[step]
         base = row * n
         for part in range(world.first_part[row], world.first_part[row + 1]):
@@ -283,6 +290,7 @@ def lift(world, effects, after, value, cost, order):
                 then = after[memory, world.letter[part]]
                 if then < 0:
                     continue
+                best = out[step - first, memory]
                 for j in range(np.uintp(a), np.uintp(b)):
                     best[j] = np.inf
                 entered = then * states + base
@@ -290,8 +298,27 @@ def lift(world, effects, after, value, cost, order):
                     lo, hi = max(a, begin[entry]), min(b, end[entry])
                     if lo < hi:
                         lower(effect[entry], first_outcome, probability, shift, cost, value, entered, lo, hi, best)
-                at = np.uintp(memory * states + base)
-                for j in range(np.uintp(a), np.uintp(b)):
+
+
+@jit
+def lift(world, after, value, order, first, last, found):
+    """Raise the values of the rows order[first] .. order[last - 1] to what `look_ahead` found; infinite where none is.
+
+    Returns the greatest rise.
+    """
+    n = world.length
+    states = (len(world.first_entry) - 1) * n
+    rise = 0.0
+    for step in range(first, last):
+        row = order[step]
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            a, b = np.uintp(world.part_begin[part]), np.uintp(world.part_end[part])
+            for memory in range(after.shape[0]):
+                if after[memory, world.letter[part]] < 0:
+                    continue
+                best = found[step - first, memory]
+                at = np.uintp(memory * states + row * n)
+                for j in range(a, b):
                     more = best[j] - value[at + j]
                     if more > 0.0 and best[j] < np.inf:
                         value[at + j] = best[j]
@@ -338,9 +365,9 @@ def lower(effect, first_outcome, probability, shift, cost, value, entered, lo, h
 
 
 @jit
-def choose(world, effects, after, value, cost, tie, action, steps):
-    """The first action of each undecided product state whose value is the least, but for a relative difference `tie`
-    to the one that replaces it.
+def choose(world, effects, after, value, cost, tie, action, steps, first, last):
+    """The first action of each undecided product state of the rows first .. last - 1 whose value is the least, but for
+    a relative difference `tie` to the one that replaces it.
 
     `action` and `steps` ([live · states]) are by memory after reading; an action is -1 where the value is infinite and
     -2 where none is possible. Returns the greatest excess over `value` of what a choice is worth.
@@ -351,7 +378,7 @@ def choose(world, effects, after, value, cost, tie, action, steps):
     states = rows * n
     excess = 0.0
     worth = np.empty(n, dtype=value.dtype)
-    for row in range(rows):
+    for row in range(first, last):
         base = row * n
         for then in range(live):
             entered = then * states + base

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import prod
-from typing import Final, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from models.logic import Automaton
 from models.planning.dense import rows
 from models.planning.dense.tables import Effects, flatten, outer_variables
+from models.planning.dense.team import Team
 from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import INVALID, NOTHING
@@ -42,6 +43,13 @@ SAMPLE = 32
 
 MEMORY_BYTES = 20
 """Per state and memory: value and cost (16), distance while they are not there yet, action, probability."""
+
+
+BLOCK = 256
+"""Most rows of a block, whose values are raised together."""
+
+BLOCKS = 64
+"""Blocks that a sweep has at least, unless there are fewer rows: a value travels through one block after the other."""
 
 
 class Rows(NamedTuple):
@@ -92,23 +100,37 @@ def solve(
     after = _memories(automaton)
     _check_bytes(world.size, len(after), factored, options)
     letter = automaton.letters(world.labels(automaton.atoms))
-    dense = compress(factored, letter)
-    letter[~dense.valid] = INVALID
-    distance = _sure_distance(dense, after, bool(automaton.rejecting.any()), progress)
-    if distance is None:
-        return UNSURE
-    row = int(_rows(automaton)[automaton.successors[automaton.initial, letter[start]]])
-    return _cheapest(dense, after, letter, (row, start), distance, options, progress)
+    with Team(world.size * len(after)) as team:
+        dense = compress(factored, letter, team)
+        letter[~dense.valid] = INVALID
+        solver = _Solver(dense, after, team, options, progress)
+        distance = solver.sure_distance(losing=bool(automaton.rejecting.any()))
+        if distance is None:
+            return UNSURE
+        row = int(_rows(automaton)[automaton.successors[automaton.initial, letter[start]]])
+        return solver.cheapest(letter, row, start, distance)
 
 
-def compress(world: Factored, letter: NDArray[np.signedinteger]) -> Compressed:
+def compress(world: Factored, letter: NDArray[np.signedinteger], team: Team | None = None) -> Compressed:
     """The rows of a world whose states read `letter` ([S])."""
     tables, effects = flatten(world)
     length = prod(world.radix[outer_variables(world) :])
     count = len(letter) // length
-    first, effect, begin, end, valid = rows.compress(tables, effects, length, count, 0)
-    parts = rows.split(letter, valid, length, count)
-    return Compressed(Rows(length, first, effect, begin, end, *parts), effects, valid)
+
+    def some(begin: int, end: int) -> tuple[NDArray[Any], ...]:
+        found: tuple[NDArray[Any], ...] = rows.compress(tables, effects, length, end - begin, begin)
+        return found
+
+    parts = [some(0, count)] if team is None else team.share(some, 0, count)
+    offset = np.cumsum([0, *(len(part[1]) for part in parts)])
+    first = np.concatenate([[0], *(part[0][1:] + before for part, before in zip(parts, offset, strict=False))])
+    effect, begin, end, valid = (_joined([part[k] for part in parts]) for k in range(1, 5))
+    pieces = rows.split(letter, valid, length, count)
+    return Compressed(Rows(length, first, effect, begin, end, *pieces), effects, valid)
+
+
+def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 def _memories(automaton: Automaton) -> NDArray[np.int32]:
@@ -142,77 +164,107 @@ def _check_bytes(states: int, live: int, world: Factored, options: Options) -> N
         )
 
 
-def _sure_distance(
-    world: Compressed, after: NDArray[np.int32], losing: bool, progress: Progress
-) -> NDArray[np.int32] | None:
-    """[R, S] by memory before reading, the fewest steps that may lead to acceptance while it stays sure; None if it is
-    possible somewhere and not sure.
-    """
-    distance = _search(world, after, np.zeros((0, 0), dtype=np.bool_), progress)
-    if not losing and rows.all_reached(world.rows, after, distance):
+class _Solver:
+    """One problem: a world in rows, the rows of the memories after reading a letter, and who works on it."""
+
+    def __init__(
+        self, world: Compressed, after: NDArray[np.int32], team: Team, options: Options, progress: Progress
+    ) -> None:
+        self._world, self._after, self._team = world, after, team
+        self._options, self._progress = options, progress
+        self._count = len(world.rows.first_entry) - 1
+
+    def sure_distance(self, *, losing: bool) -> NDArray[np.int32] | None:
+        """[R, S] by memory before reading, the fewest steps that may lead to acceptance while it stays sure; None if it
+        is possible somewhere and not sure.
+        """
+        distance = self._search(np.zeros((0, 0), dtype=np.bool_))
+        if not losing and rows.all_reached(self._world.rows, self._after, distance):
+            return distance
+        possible = inside = distance < rows.INFINITE
+        while True:
+            distance = self._search(inside)
+            fewer = distance < rows.INFINITE
+            if (fewer == inside).all():
+                return distance if (inside == possible).all() else None
+            inside = fewer
+
+    def _search(self, inside: NDArray[np.bool_]) -> NDArray[np.int32]:
+        """[R, S] by memory before reading, the fewest steps that may lead to acceptance."""
+        world, effects, after = self._world.rows, self._world.effects, self._after
+        distance = np.full((len(after), len(self._world.valid)), rows.INFINITE, dtype=np.int32)
+        rows.accept(world, after, distance)
+        sweep, changed = 0, 1
+        while changed:
+            sweep += 1
+
+            def some(begin: int, end: int, backwards: bool = sweep % 2 == 0) -> int:
+                return int(rows.approach(world, effects, after, distance, inside, backwards, begin, end))
+
+            changed = sum(self._team.share(some, 0, self._count))
+            self._progress("graph", sweep, 0.0, np.inf, changed)
         return distance
-    possible = inside = distance < rows.INFINITE
-    while True:
-        distance = _search(world, after, inside, progress)
-        fewer = distance < rows.INFINITE
-        if (fewer == inside).all():
-            return distance if (inside == possible).all() else None
-        inside = fewer
 
+    def cheapest(self, letter: NDArray[np.int32], row: int, start: int, distance: NDArray[np.int32]) -> Solution | None:
+        """The cheapest policy where acceptance is sure; None where it is impossible in state `start`, which is entered
+        with the memory of `row` (-1: accepted, -2: failed).
+        """
+        least = float(self._world.effects.cost.min())
+        order = np.argsort(rows.nearness(self._world.rows, distance), kind="stable")
+        value = np.empty(distance.shape)
+        rows.begin_at(distance, least, value)
+        del distance
+        for sweep in range(1, self._options.max_sweeps + 1):
+            rise = self._sweep(value, order)
+            self._progress("steps", sweep, 0.0, np.inf, value.size)
+            if rise <= RESIDUAL * least:
+                break
+        action, steps, excess = self._choose(value)
+        if row == -2 or (row >= 0 and action[row, start] == NOTHING):
+            return None
+        reached = float(steps[row, start]) if row >= 0 else 0.0
+        error = excess / least
+        return Solution(
+            letter=smallest(letter),
+            action=action,
+            probability=(action != NOTHING).astype(np.int8),
+            expected_steps=steps,
+            lower=1.0,
+            upper=1.0,
+            steps=(max(0.0, reached - excess), reached / (1.0 - error) if error < 1.0 else np.inf),
+            component=None,
+            rounds=np.zeros((0, 2)),
+        )
 
-def _search(
-    world: Compressed, after: NDArray[np.int32], inside: NDArray[np.bool_], progress: Progress
-) -> NDArray[np.int32]:
-    """[R, S] by memory before reading, the fewest steps that may lead to acceptance."""
-    distance = np.full((len(after), len(world.valid)), rows.INFINITE, dtype=np.int32)
-    rows.accept(world.rows, after, distance)
-    sweep, changed = 0, 1
-    while changed:
-        sweep += 1
-        changed = rows.approach(world.rows, world.effects, after, distance, inside, sweep % 2 == 0)
-        progress("graph", sweep, 0.0, np.inf, changed)
-    return distance
+    def _sweep(self, value: NDArray[np.float64], order: NDArray[np.intp]) -> float:
+        """Raise all values once, nearest rows first, so that most of a value is there after one sweep; returns the
+        greatest rise. The rows of a block do not see what becomes of each other.
+        """
+        world, effects, after = self._world.rows, self._world.effects, self._after
+        block = min(BLOCK, max(1, self._count // BLOCKS))
+        found = np.empty((block, len(after), world.length))
+        flat, rise = value.reshape(-1), 0.0
+        for first in range(0, self._count, block):
+            last = min(first + block, self._count)
 
+            def look(begin: int, end: int, first: int = first) -> None:
+                rows.look_ahead(world, effects, after, flat, effects.cost, order, begin, end, found[begin - first :])
 
-def _cheapest(
-    world: Compressed,
-    after: NDArray[np.int32],
-    letter: NDArray[np.signedinteger],
-    begin: tuple[int, int],
-    distance: NDArray[np.int32],
-    options: Options,
-    progress: Progress,
-) -> Solution | None:
-    """Iterate from the distances up, nearest rows first, so that most of a value is there after one sweep."""
-    cost = world.effects.cost
-    least = float(cost.min())
-    order = np.argsort(rows.nearness(world.rows, distance), kind="stable")
-    value = np.where(distance < rows.INFINITE, distance * least, np.inf)
-    del distance
-    for sweep in range(1, options.max_sweeps + 1):
-        rise = rows.lift(world.rows, world.effects, after, value.reshape(-1), cost, order)
-        progress("steps", sweep, 0.0, np.inf, value.size)
-        if rise <= RESIDUAL * least:
-            break
-    action = np.empty(value.shape, dtype=np.int16)  # MAX_GROUNDINGS fit
-    steps = np.empty(value.shape)
-    excess = rows.choose(
-        world.rows, world.effects, after, value.reshape(-1), cost, TIE, action.reshape(-1), steps.reshape(-1)
-    )
-    error = float(excess) / least
-    row, start = begin
-    sure = 1.0 if row == -1 else float(row >= 0 and action[row, start] != NOTHING)
-    if not sure:
-        return None
-    reached = float(steps[row, start]) if row >= 0 else 0.0
-    return Solution(
-        letter=smallest(letter),
-        action=action,
-        probability=(action != NOTHING).astype(np.int8),
-        expected_steps=steps,
-        lower=1.0,
-        upper=1.0,
-        steps=(max(0.0, reached - float(excess)), reached / (1.0 - error) if error < 1.0 else np.inf),
-        component=None,
-        rounds=np.zeros((0, 2)),
-    )
+            def lift(begin: int, end: int, first: int = first) -> float:
+                return float(rows.lift(world, after, flat, order, begin, end, found[begin - first :]))
+
+            self._team.share(look, first, last)
+            rise = max(rise, *self._team.share(lift, first, last))
+        return rise
+
+    def _choose(self, value: NDArray[np.float64]) -> tuple[NDArray[np.int16], NDArray[np.float64], float]:
+        """[R, S] actions and costs after reading, and how far the costs exceed the values at most."""
+        world, effects, after = self._world.rows, self._world.effects, self._after
+        action = np.empty(value.shape, dtype=np.int16)  # MAX_GROUNDINGS fit
+        steps = np.empty(value.shape)
+        flat = (value.reshape(-1), effects.cost, TIE, action.reshape(-1), steps.reshape(-1))
+
+        def some(begin: int, end: int) -> float:
+            return float(rows.choose(world, effects, after, *flat, begin, end))
+
+        return action, steps, max(self._team.share(some, 0, self._count))
