@@ -19,7 +19,7 @@ MAX_OBLIGATIONS = 2_048
 """Largest guess at the work (`effort.obligations`) with which Spot is called at all."""
 FEW_ATOMS = 6
 MAX_OBLIGATIONS_OF_FEW = 1 << 27
-"""The same for at most FEW_ATOMS: the parts of a long formula over few atoms repeat each other, so the guess is high."""
+"""The same for at most FEW_ATOMS: parts of a long formula over few atoms repeat each other, so the guess is high."""
 
 
 @dataclass(frozen=True, slots=True)
