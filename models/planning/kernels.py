@@ -40,6 +40,61 @@ def narrow(first, constant, start, successor, probability, lower, upper, margin,
 
 
 @jit
+def ascend(first, constant, start, successor, probability, lower, margin, policy):
+    """Raise lower bounds of maximal values, rounded down, and take the choices that do; returns the greatest rise."""
+    rise = 0.0
+    for node in range(len(first) - 1):
+        best = lower[node]
+        for choice in range(first[node], first[node + 1]):
+            worth = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                worth += probability[outcome] * lower[successor[outcome]]
+            worth *= 1.0 - margin
+            if worth > best:
+                best = worth
+                policy[node] = choice
+        rise = max(rise, best - lower[node])
+        lower[node] = best
+    return rise
+
+
+@jit
+def follow(policy, constant, start, successor, probability, lower, margin):
+    """The same by the choices of a policy alone: what they are worth is a lower bound too."""
+    rise = 0.0
+    for node in range(len(policy)):
+        choice = policy[node]
+        worth = constant[choice]
+        for outcome in range(start[choice], start[choice + 1]):
+            worth += probability[outcome] * lower[successor[outcome]]
+        worth *= 1.0 - margin
+        if worth > lower[node]:
+            rise = max(rise, worth - lower[node])
+            lower[node] = worth
+    return rise
+
+
+@jit
+def cover(first, constant, start, successor, probability, upper, margin):
+    """Replace candidates for upper bounds of maximal values, rounded up; returns how much one grew at most.
+
+    Where none grew all are upper bounds: the pass is a monotone operator whose least fixed point are the values.
+    """
+    growth = 0.0
+    for node in range(len(first) - 1):
+        best = 0.0
+        for choice in range(first[node], first[node + 1]):
+            worth = constant[choice]
+            for outcome in range(start[choice], start[choice + 1]):
+                worth += probability[outcome] * upper[successor[outcome]]
+            best = max(best, worth)
+        best *= 1.0 + margin
+        growth = max(growth, best - upper[node])
+        upper[node] = best
+    return growth
+
+
+@jit
 def improve(first, constant, start, successor, probability, x, policy):
     """Minimal values and the choices that have them, in the order of the nodes; returns the greatest change."""
     change = 0.0

@@ -43,6 +43,16 @@ class Operator(Protocol):
     def narrow(self, lower: Any, upper: Any, sweep: int) -> float:
         """Improve bounds of maximal values in place, rounded outwards; returns the greatest gap."""
 
+    def ascend(self, lower: Any) -> float:
+        """Modified policy iteration on lower bounds of maximal values, in place, rounded down; see `improve`. What a
+        policy makes of a lower bound is one. Returns the greatest rise in the first pass.
+        """
+
+    def cover(self, upper: Any) -> float:
+        """One pass over candidates for upper bounds of maximal values, in place, rounded up; returns how much one grew
+        at most. Where none grew all are upper bounds.
+        """
+
     def improve(self, x: Any) -> float:
         """Modified policy iteration on minimal values, in place: one pass over all choices, and a few over those that
         were the best (Puterman and Shin, "Modified policy iteration algorithms for discounted Markov decision
@@ -66,7 +76,7 @@ class KernelOperator:
         self.choices = choices
         self._arrays = choices.arrays
         self._chain = np.arange(choices.unknowns, dtype=np.int32)
-        self._policy = np.zeros(choices.unknowns, dtype=np.int32)
+        self._policy = choices.first_choice[:-1].copy()
 
     def vector(self, values: Vector | float) -> Vector:
         """See `Operator.vector`."""
@@ -83,6 +93,19 @@ class KernelOperator:
     def narrow(self, lower: Vector, upper: Vector, sweep: int) -> float:
         """See `Operator.narrow`."""
         return float(kernels.narrow(*self._arrays, lower, upper, self.choices.roundoff, sweep % 2 == 0))
+
+    def ascend(self, lower: Vector) -> float:
+        """See `Operator.ascend`."""
+        margin = self.choices.roundoff
+        rise = float(kernels.ascend(*self._arrays, lower, margin, self._policy))
+        for _ in range(PASSES):
+            if kernels.follow(self._policy, *self._arrays[1:], lower, margin) <= SETTLED * rise:
+                break
+        return rise
+
+    def cover(self, upper: Vector) -> float:
+        """See `Operator.cover`."""
+        return float(kernels.cover(*self._arrays, upper, self.choices.roundoff))
 
     def improve(self, x: Vector) -> float:
         """See `Operator.improve`."""

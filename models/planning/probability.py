@@ -1,18 +1,22 @@
 """Maximal probability of reaching acceptance, with bounds that hold.
 
-Interval iteration: Haddad and Monmege, "Interval iteration algorithm for MDPs and IMDPs" (TCS 2018); Baier,
-Klein, Leuschner, Parker and Wunderlich, "Ensuring the reliability of your model checker: interval iteration
-for Markov decision processes" (CAV 2017). Nodes of probability 0 and 1 are settled by graph analysis. Each
-maximal end component of the rest is one unknown with the choices that leave it, so that every policy leaves
-the unknowns for sure and both bounds converge to the same, only, fixed point. Each sweep rounds its result
-outwards, as in Hartmanns, "Correct probabilistic model checking with floating-point arithmetic" (TACAS 2022),
-so that the bounds hold in floating point too.
+Nodes of probability 0 and 1 are settled by graph analysis. Each maximal end component of the rest is one unknown with
+the choices that leave it, so that every policy leaves the unknowns for sure, and the values are the only fixed point.
+
+Lower bounds rise by modified policy iteration. Upper bounds are guessed a little above them and proved: a vector that
+no pass raises is one (optimistic value iteration: Hartmanns and Kaminski, "Optimistic value iteration", CAV 2020).
+Where no guess is proved soon, interval iteration takes over, from 1 down (Haddad and Monmege, "Interval iteration
+algorithm for MDPs and IMDPs", TCS 2018; Baier, Klein, Leuschner, Parker and Wunderlich, "Ensuring the reliability of
+your model checker: interval iteration for Markov decision processes", CAV 2017). Every pass rounds its result outwards,
+as in Hartmanns, "Correct probabilistic model checking with floating-point arithmetic" (TACAS 2022), so that the bounds
+hold in floating point too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,6 +33,15 @@ from models.planning.qualities import Qualities
 
 PRECISION = 1e-11
 """Gap that is aimed at, well under any useful epsilon: ties between actions are decided on these values."""
+
+RISE = 1e-13
+"""Rise in a pass at which lower bounds count as the values."""
+
+GUESSES = (1e-10, 1e-8, 1e-7)
+"""How far above the lower bounds upper ones are guessed."""
+
+PROOF_SWEEPS = 60
+"""Passes after which a guess is given up."""
 
 DIRECT_AFTER = 100
 """Sweeps after which a small system is solved directly instead."""
@@ -103,23 +116,56 @@ def iterate_intervals(
     """
     operator = operator_of(choices, options.device)
     lower, upper = operator.vector(0.0), operator.vector(1.0)
-    precision = min(PRECISION, options.epsilon)
-    gap = 1.0
+    known = watched < 0
 
     def tell(sweep: int) -> None:
         if progress is not no_progress:
-            known = watched < 0
             low, high = (1.0, 1.0) if known else (operator.at(lower, watched), operator.at(upper, watched))
             progress("probability", sweep, low, high, choices.unknowns)
 
-    for sweep in range(1, options.max_sweeps + 1):
-        previous, gap = gap, operator.narrow(lower, upper, sweep)
-        stuck = gap == previous and sweep % DIRECT_AFTER == 0  # as close as floating point gets
-        if gap > precision and sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
+    sweeps = 0
+    for sweeps in range(1, options.max_sweeps + 1):
+        rise = operator.ascend(lower)
+        tell(sweeps)
+        if rise <= RISE:
+            break
+        if sweeps == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
             lower, upper = _solve_directly(operator, lower, upper, lambda: tell(DIRECT_AFTER))
-            gap, stuck = operator.narrow(lower, upper, sweep), True
+            break
+    proved = _prove(operator, lower, partial(tell, sweeps))
+    if proved is not None:
+        upper = operator.vector(np.minimum(operator.numpy(proved), operator.numpy(upper)))
+        tell(sweeps + 1)
+        return operator.numpy(lower), operator.numpy(upper)
+    return _close(operator, lower, upper, sweeps, options, tell)
+
+
+def _prove(operator: Operator, lower: Any, alive: Callable[[], None]) -> Any | None:
+    """Upper bounds close above lower ones, or None where no guess is proved."""
+    for guess in GUESSES:
+        upper = operator.vector(np.minimum(1.0, operator.numpy(lower) + guess))
+        growth = np.inf
+        for _ in range(PROOF_SWEEPS):
+            before, growth = growth, operator.cover(upper)
+            alive()
+            if growth == 0.0:
+                return upper
+            if growth > 2 * guess or (growth > before and growth > guess):
+                break
+    return None
+
+
+def _close(
+    operator: Operator, lower: Any, upper: Any, done: int, options: Options, tell: Callable[[int], None]
+) -> tuple[Vector, Vector]:
+    """Both bounds by interval iteration, until they are `options.epsilon` apart or no sweep brings them closer."""
+    gap = 1.0
+    for sweep in range(done + 1, options.max_sweeps + 1):
+        previous, gap = gap, operator.narrow(lower, upper, sweep)
         tell(sweep)
-        if gap <= precision or (stuck and gap <= options.epsilon):
+        if gap <= min(PRECISION, options.epsilon):
+            break
+        if gap == previous and sweep % DIRECT_AFTER == 0 and gap <= options.epsilon:  # as close as it gets
             break
     return operator.numpy(lower), operator.numpy(upper)
 

@@ -63,6 +63,20 @@ class TensorOperator:
         torch.minimum(upper, self._apply(upper, maximise=True).mul_(1.0 + margin), out=upper)
         return float((upper - lower).max())
 
+    def ascend(self, lower: torch.Tensor) -> float:
+        """See `Operator.ascend`; with no further passes."""
+        out = self._apply(lower, maximise=True).mul_(1.0 - self.choices.roundoff)
+        rise = float((out - lower).max())
+        torch.maximum(lower, out, out=lower)
+        return max(rise, 0.0)
+
+    def cover(self, upper: torch.Tensor) -> float:
+        """See `Operator.cover`."""
+        out = self._apply(upper, maximise=True).mul_(1.0 + self.choices.roundoff)
+        growth = float((out - upper).max())
+        upper.copy_(out)
+        return max(growth, 0.0)
+
     def improve(self, x: torch.Tensor) -> float:
         """See `Operator.improve`; with no further passes."""
         out = self._apply(x, maximise=False)

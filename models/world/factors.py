@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from models.world.actions import GroundedAction
 from models.world.algebra import Algebra, Combined, Table, Value
-from models.world.limits import MAX_TABLE
 
-WIDE = 2**14
-"""Entries of a table that a range may have: what has no better form is tabulated up to this size."""
+WIDE = 2**16
+"""Entries of a table of an action or a range: what has no better form is tabulated up to this size."""
 
 UNBOUNDED = 2**30
 """Upper end of a range without one."""
@@ -79,7 +78,7 @@ def _action(algebra: Algebra, index: int, action: GroundedAction) -> FactoredAct
     guard = ranges_of(algebra, action.enabled)
     parts = (*action.probabilities, *action.shifts)
     scope = tuple(sorted({v for part in parts for v in part.scope}))
-    if guard is None or algebra.entries(scope) > MAX_TABLE:
+    if guard is None or algebra.entries(scope) > WIDE:
         return None
     probability, shift = (
         np.stack([algebra.tabulate(part, scope).reshape(-1) for part in group])
@@ -107,7 +106,9 @@ def ranges_of(algebra: Algebra, value: Value, *, holds: bool = True) -> tuple[Ra
         return ranges_of(algebra, value.parts[0], holds=not holds)
     if operation in (np.logical_and, np.logical_or):
         conjunctive = (operation is np.logical_and) == holds
-        return _each(algebra, value, holds) if conjunctive else _any(value, holds)
+        ranges = _each(algebra, value, holds) if conjunctive else _any(value, holds)
+        if ranges is not None:
+            return ranges
     if operation in _BOUNDS:
         found = _compared(value, holds)
         if found is not None:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from models.logic.formula import Atom
 from models.world.algebra import Table
+from models.world.errors import StateError
 from models.world.factors import Factored, FactoredAction, Range
 from models.world.oomdp import OomdpWorld
 from models.world.states import decode_state, encode_state
@@ -96,7 +97,10 @@ class ProjectedWorld:
 
     def encode(self, state: State, *, base: int | None = None) -> int:
         """See `World.encode`."""
-        return encode_state(state, self.variables, self._strides, self.initial if base is None else base)
+        index = encode_state(state, self.variables, self._strides, self.initial if base is None else base)
+        if not self.valid(np.array([index]))[0]:
+            raise StateError("the state breaks a constraint of the domain")
+        return index
 
     def decode(self, index: int) -> dict[str, dict[str, str]]:
         """See `World.decode`."""
@@ -134,7 +138,11 @@ def relevant_part(world: OomdpWorld, atoms: Sequence[Atom], start: int) -> Proje
     if len(kept) == len(factored.radix):
         return None
     order = tuple(sorted(kept)) or (0,)
-    acting = [action for action in factored.actions if action.changes & kept]
+    acting = [
+        action
+        for action in factored.actions
+        if action.changes & kept and all(_reads(one) & kept or _holds(one, digits) for one in action.ranges)
+    ]
     ranges = [one for group in (factored.valid, *(action.ranges for action in acting)) for one in group]
     harmless = tuple(
         tuple(range(radix)) if v in order else _harmless(ranges, v, radix, digits[v])
@@ -162,21 +170,34 @@ def _reads(one: Range) -> set[int]:
     return {v for table in one.tables for v in table.scope}
 
 
+def _holds(one: Range, digits: list[int]) -> bool:
+    """Whether a range holds in the state with these digits."""
+    total = sum(int(table.array[tuple(digits[v] for v in table.scope)]) for table in one.tables)
+    return one.low <= total <= one.high
+
+
 def _forbidding(one: Range, kept: set[int], digits: list[int]) -> set[int]:
     """The variables of a range, beside those kept, that could be better placed than they are."""
     least = sum(int(table.array.min()) for table in one.tables)
     most = sum(int(table.array.max()) for table in one.tables)
     found: set[int] = set()
     for table in one.tables:
-        other = [axis for axis, v in enumerate(table.scope) if v not in kept]
-        if not other:
+        axes = [axis for axis, v in enumerate(table.scope) if v not in kept]
+
+        def better(array: NDArray[np.int16], among: list[int]) -> bool:
+            here = array
+            for axis in among:
+                here = here.take([digits[table.scope[axis]]], axis=axis)  # noqa: B023  # called within the iteration
+            return bool((one.high < most and (here > array).any()) or (one.low > least and (here < array).any()))
+
+        array = table.array
+        if not better(array, axes):
             continue
-        here = table.array
-        for axis in reversed(other):
-            here = here.take(digits[table.scope[axis]], axis=axis)
-        low, high = table.array.min(axis=tuple(other)), table.array.max(axis=tuple(other))
-        if (one.high < most and (here > low).any()) or (one.low > least and (here < high).any()):
-            found.update(table.scope[axis] for axis in other)
+        for axis in axes:
+            if better(array, [axis]):
+                found.add(table.scope[axis])
+            else:  # it stands best, whatever the others do
+                array = array.take([digits[table.scope[axis]]], axis=axis)
     return found
 
 
@@ -229,15 +250,17 @@ def _fixed(table: Table, projection: Projection) -> Table:
 
 
 def _renumbered(action: FactoredAction, world: Factored, projection: Projection) -> NDArray[np.int64]:
-    """The shifts of an action in the projected numbering. Its scope holds every variable that it changes."""
+    """The shifts of an action in the projected numbering. Its scope holds every variable that it changes, but for those
+    with one value only.
+    """
     shape = [world.radix[v] for v in action.scope]
     before = np.unravel_index(np.arange(action.shift.shape[1]), shape) if shape else ()
     digits = dict(zip(action.scope, before, strict=True))
     old: NDArray[np.int64] = np.zeros(action.shift.shape[1], dtype=np.int64)
     for v in action.changes:
-        old = old + digits[v] * world.strides[v]
+        old = old + digits.get(v, 0) * world.strides[v]
     shift = np.zeros_like(action.shift)
     for v in action.changes:
         after = (old + action.shift) // world.strides[v] % world.radix[v]
-        shift += (after - digits[v]) * projection.inner[v]
+        shift += (after - digits.get(v, 0)) * projection.inner[v]
     return np.where(action.probability > 0, shift, 0)

@@ -1,4 +1,8 @@
-"""The part of a world that a formula depends on: by hand, and against planning in the whole world."""
+"""Which part of toys and navigation worlds a formula depends on, and that this part is a world.
+
+Guards are in `test_relevance_of_guards.py`; that plans in the part are plans in the whole in
+`tests/planning/test_relevance.py`.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,6 @@ import pytest
 
 from models.logic import Atom, Name, parse
 from models.logic import atoms as atoms_of
-from models.planning import Options, Plan, check, plan
 from models.world import (
     OomdpWorld,
     ProjectedWorld,
@@ -20,9 +23,7 @@ from models.world import (
     relevant_part,
     toys_spec,
 )
-from tests.planning.random_tasks import Task, navigation_task, toys_task
 from tests.world import test_world as contract
-from tests.world.worlds import changed
 
 TOYS = [("cylinder", "red"), ("sphere", "red"), ("cube", "red"), ("cone", "red")]
 IN_BOX = "F in(cylinder, box)"
@@ -53,9 +54,6 @@ def kept(world: OomdpWorld, formula: str, start: int | None = None) -> set[str]:
 def harmless(found: ProjectedWorld, world: OomdpWorld, name: str) -> set[str]:
     position = next(i for i, variable in enumerate(world.variables) if variable.object == name)
     return {world.variables[position].values[digit] for digit in found.projection.harmless[position]}
-
-
-# Toys and navigation.
 
 
 @pytest.mark.parametrize(
@@ -111,115 +109,6 @@ def test_navigation_and_worlds_of_which_all_matters_have_no_smaller_part() -> No
     assert part(world_of(navigation_spec(columns=3, rows=3, slip=0.2)), "F at(robot, goal)") is None
     assert part(toys(1), IN_BOX) is None
     assert part(world_of(toys_spec(columns=5, rows=2, toys=24)), "F at(robot, attic)") is None  # cannot be numbered
-
-
-# A domain in which everything can be said: switches, a goal, and a place with one value only.
-
-SWITCHBOARD: dict[str, Any] = {
-    "name": "board",
-    "kind": "oomdp",
-    "domain_spec": {
-        "name": "board",
-        "attributes": {"power": ["off", "on"]},
-        "classes": {"room": {}, "switch": {"state": {"power": "power"}}, "thing": {"state": {"at": "room"}}},
-        "constants": {"goal": "switch", "gate": "switch", "lever": "switch", "spare": "switch", "cart": "thing"},
-        "functions": {"done": {"is": "goal.power == on"}},
-        "actions": {
-            "win": {"outcomes": [{"set": {"goal.power": "on"}}]},
-            "open": {"outcomes": [{"set": {"gate.power": "on"}}]},
-            "shut": {"outcomes": [{"set": {"gate.power": "off"}}]},
-            "turn": {"outcomes": [{"set": {"spare.power": "off if spare.power == on else on"}}]},
-        },
-    },
-    "objects": {"hall": {"class": "room"}},
-    "state": {
-        **{name: {"power": "off"} for name in ("goal", "gate", "lever", "spare")},
-        "cart": {"at": "hall"},
-    },
-}
-WIN = "domain_spec/actions/win"
-
-
-def board(*changes: tuple[str, Any]) -> OomdpWorld:
-    return world_of(changed(SWITCHBOARD, *changes))
-
-
-@pytest.mark.parametrize(
-    ("guard", "gate", "wanted"),
-    [
-        ("gate.power == on", "off", {"goal", "gate"}),
-        ("gate.power == on", "on", {"goal"}),
-        ("gate.power != on", "on", {"goal", "gate"}),
-        ("gate.power != on", "off", {"goal"}),
-        ("not gate.power == off", "off", {"goal", "gate"}),
-        ("gate.power == lever.power", "on", {"goal", "gate", "lever"}),
-        ("gate.power == lever.power", "off", {"goal"}),
-        ("gate.power == on or goal.power == off", "off", {"goal", "gate"}),
-        ("gate.power == on and goal.power == off", "on", {"goal"}),
-        ("gate.power == goal.power", "off", {"goal", "gate"}),  # better off now, worse off later
-    ],
-)
-def test_a_guard_matters_unless_all_stands_where_it_forbids_the_least(guard: str, gate: str, wanted: set[str]) -> None:
-    world = board((f"{WIN}/when", guard), ("state/gate/power", gate))
-    assert kept(world, "F done") == wanted
-    same(world, "F done")
-
-
-def test_what_an_action_moves_beside_matters() -> None:
-    world = board((f"{WIN}/outcomes/0/set", {"goal.power": "on", "lever.power": "on"}))
-    assert kept(world, "F done") == {"goal", "lever"}
-    same(world, "F done")
-
-
-def test_what_decides_an_effect_matters() -> None:
-    world = board((f"{WIN}/outcomes/0/set", {"goal.power": "gate.power"}))
-    assert kept(world, "F done") == {"goal", "gate"}
-    same(world, "F done")
-
-
-def test_what_decides_a_probability_matters() -> None:
-    likely = [
-        {"probability": "1 if gate.power == on else 0.5", "set": {"goal.power": "on"}},
-        {"probability": "0 if gate.power == on else 0.5"},
-    ]
-    world = board((f"{WIN}/outcomes", likely))
-    assert kept(world, "F done") == {"goal", "gate"}
-    same(world, "F done")
-
-
-def test_a_variable_with_a_single_value_may_be_set_beside() -> None:
-    world = board((f"{WIN}/outcomes/0/set", {"goal.power": "on", "cart.at": "cart.at"}))
-    assert {"gate", "lever", "spare"}.isdisjoint(kept(world, "F done"))
-    same(world, "F done")
-
-
-@pytest.mark.parametrize(
-    ("constraint", "gate", "wanted"),
-    [
-        ("count(x: switch; x.power == on) <= 1", "off", {"goal"}),
-        ("count(x: switch; x.power == on) <= 1", "on", {"goal", "gate"}),
-        ("goal.power == on implies gate.power == on", "off", {"goal", "gate"}),
-        ("goal.power == on implies gate.power == on", "on", {"goal"}),
-        ("gate.power == on or lever.power == on", "on", {"goal"}),
-    ],
-)
-def test_constraints_matter_as_guards_do(constraint: str, gate: str, wanted: set[str]) -> None:
-    world = board(("domain_spec/constraints", [constraint]), ("state/gate/power", gate))
-    assert kept(world, "F done") == wanted
-    same(world, "F done")
-
-
-def test_an_action_that_is_never_possible_stays_impossible() -> None:
-    """No table can tell that the thirteenth lamp is missing: its guard is a sum over too many variables."""
-    lamps = {f"lamp {i}": {"class": "switch"} for i in range(13)}
-    world = board(
-        ("objects", {**lamps, "hall": {"class": "room"}}),
-        ("state", {**SWITCHBOARD["state"], **{lamp: {"power": "on"} for lamp in lamps}}),
-        (f"{WIN}/when", "count(x: switch; x.power == on) >= 100"),
-    )
-    found = part(world, "F done")
-    assert found is not None
-    assert plan(world, parse("F done")).outcome == "unreachable"
 
 
 # States to and fro, and the contract of worlds.
@@ -280,62 +169,3 @@ def test_what_only_moves_others_is_not_possible_and_the_rest_is_as_in_the_whole(
             assert (found.enabled == known.enabled).all()
             assert (found.probability == known.probability).all()
             assert (inner.projection.embed(found.successor) == known.successor).all()
-
-
-# Plans in the part are plans in the whole.
-
-
-def both_ways(world: OomdpWorld, formula: str) -> tuple[Plan, Plan]:
-    """Plans with and without relevance, which must agree, the first attaining its claims in the whole world."""
-    parsed = parse(formula)
-    reduced, full = (plan(world, parsed, options=Options(relevance=on)) for on in (True, False))
-    assert reduced.outcome == full.outcome
-    assert (reduced.lower, reduced.upper) == pytest.approx((full.lower, full.upper), abs=1e-6)
-    if reduced.policy is not None and reduced.expected_steps is not None:
-        assert reduced.expected_steps == pytest.approx(full.expected_steps, rel=1e-6, abs=1e-9)
-        found = check(world, reduced.policy)
-        assert found.sound
-        assert found.probability == pytest.approx(reduced.lower, abs=1e-6)
-        assert found.expected_steps == pytest.approx(reduced.expected_steps, rel=1e-6, abs=1e-9)
-    return reduced, full
-
-
-def same(world: OomdpWorld, formula: str) -> None:
-    reduced, full = both_ways(world, formula)
-    assert reduced.outcome == "solved"
-    assert reduced.sizes.states < full.sizes.states
-
-
-@pytest.mark.parametrize("block", range(6))
-def test_the_part_has_the_same_plans(block: int) -> None:
-    smaller, partial = 0, 0
-    for seed in range(block * 15, block * 15 + 15):
-        tasks: list[Task] = [toys_task(seed), toys_task(seed, spare=1), navigation_task(seed)]
-        tasks += [toys_task(seed, spare=1, following=True), navigation_task(seed, following=True)]
-        for task in tasks:
-            reduced, full = both_ways(task.world, task.text)
-            smaller += reduced.sizes.states < full.sizes.states
-            partial += 0 < full.lower < 0.999
-    assert smaller >= 8
-    assert partial >= 1
-
-
-@pytest.mark.parametrize(
-    "formula",
-    ["F (holding(box) & X holding(box))", "X X F in(cylinder, box)", "F at(box, kitchen) & X at(robot, bedroom)"],
-)
-def test_formulas_that_count_steps_are_planned_in_the_whole(formula: str) -> None:
-    world = toys(2)
-    reduced, full = both_ways(world, formula)
-    assert reduced.sizes == full.sizes
-
-
-def test_a_world_far_too_large_to_list_is_planned_and_checked() -> None:
-    """Its states have numbers of 61 bits; times the memories they need 64."""
-    world = world_of(toys_spec(columns=5, rows=2, toys=15))
-    tour = "F at(robot, kitchen)"
-    for room in ("room_10", "bedroom", "room_10", "kitchen", "attic"):
-        tour = f"F (at(robot, {room}) & {tour})"
-    result = plan(world, parse(tour), initial=world.encode({"robot": {"at": "room_10"}}))
-    assert result.policy is not None
-    assert check(world, result.policy).expected_steps == pytest.approx(result.expected_steps)

@@ -6,6 +6,9 @@ import numpy as np
 
 from models.planning.kernels import jit
 
+SHORT = 8
+"""States of an entry up to which the call of a function costs more than what it does."""
+
 INFINITE = 2**30
 """Distance of what leads nowhere."""
 
@@ -296,8 +299,14 @@ def look_ahead(world, effects, after, value, cost, order, first, last, out):
                 entered = then * states + base
                 for entry in range(world.first_entry[row], world.first_entry[row + 1]):
                     lo, hi = max(a, begin[entry]), min(b, end[entry])
-                    if lo < hi:
+                    if hi - lo > SHORT:
                         lower(effect[entry], first_outcome, probability, shift, cost, value, entered, lo, hi, best)
+                        continue
+                    for j in range(np.uintp(lo), np.uintp(max(lo, hi))):
+                        worth = cost[effect[entry]]
+                        for k in range(first_outcome[effect[entry]], first_outcome[effect[entry] + 1]):
+                            worth += probability[k] * value[np.uintp(entered + shift[k]) + j]
+                        best[j] = worth if worth < best[j] else best[j]
 
 
 @jit
@@ -323,6 +332,17 @@ def lift(world, after, value, order, first, last, found):
                     if more > 0.0 and best[j] < np.inf:
                         value[at + j] = best[j]
                         rise = more if more > rise else rise
+    return rise
+
+
+@jit
+def lift_all(world, effects, after, value, cost, order):
+    """Raise the values of all rows, one after the other; returns the greatest rise."""
+    found = np.empty((1, after.shape[0], world.length), dtype=value.dtype)
+    rise = 0.0
+    for step in range(len(order)):
+        look_ahead(world, effects, after, value, cost, order, step, step + 1, found)
+        rise = max(rise, lift(world, after, value, order, step, step + 1, found))
     return rise
 
 

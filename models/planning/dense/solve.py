@@ -25,7 +25,7 @@ from models.planning.policy import INVALID, NOTHING
 from models.planning.solution import Solution, smallest
 from models.world import Factored, OomdpWorld, ProjectedWorld, World
 
-RESIDUAL = 1e-9
+RESIDUAL = 1e-8
 """Rise in a sweep, in units of the cheapest action, at which iteration stops: the relative error of the costs."""
 
 TIE = 1e-9
@@ -45,11 +45,12 @@ MEMORY_BYTES = 20
 """Per state and memory: value and cost (16), distance while they are not there yet, action, probability."""
 
 
-BLOCK = 256
-"""Most rows of a block, whose values are raised together."""
+BLOCKS_FROM = 5_000_000
+"""Product states from which the rows of a sweep are taken in blocks: threads then save more than it takes to start
+them, and than the sweeps that are needed more because the rows of a block are raised together."""
 
-BLOCKS = 64
-"""Blocks that a sweep has at least, unless there are fewer rows: a value travels through one block after the other."""
+BLOCK = 128
+"""Rows of a block."""
 
 
 class Rows(NamedTuple):
@@ -205,7 +206,9 @@ class _Solver:
             self._progress("graph", sweep, 0.0, np.inf, changed)
         return distance
 
-    def cheapest(self, letter: NDArray[np.int32], row: int, start: int, distance: NDArray[np.int32]) -> Solution | None:
+    def cheapest(
+        self, letter: NDArray[np.int32], row: int, start: int, distance: NDArray[np.int32]
+    ) -> Solution | Literal["unsure"] | None:
         """The cheapest policy where acceptance is sure; None where it is impossible in state `start`, which is entered
         with the memory of `row` (-1: accepted, -2: failed).
         """
@@ -219,11 +222,15 @@ class _Solver:
             self._progress("steps", sweep, 0.0, np.inf, value.size)
             if rise <= RESIDUAL * least:
                 break
-        action, steps, excess = self._choose(value)
+        for tie in (TIE, 0.0):
+            action, steps, excess = self._choose(value, tie)
+            if excess < least:
+                break
+        else:
+            return UNSURE  # a policy that loses a step at every step need not arrive
         if row == -2 or (row >= 0 and action[row, start] == NOTHING):
             return None
         reached = float(steps[row, start]) if row >= 0 else 0.0
-        error = excess / least
         return Solution(
             letter=smallest(letter),
             action=action,
@@ -231,21 +238,22 @@ class _Solver:
             expected_steps=steps,
             lower=1.0,
             upper=1.0,
-            steps=(max(0.0, reached - excess), reached / (1.0 - error) if error < 1.0 else np.inf),
+            steps=(max(0.0, reached - excess), reached / (1.0 - excess / least)),
             component=None,
             rounds=np.zeros((0, 2)),
         )
 
     def _sweep(self, value: NDArray[np.float64], order: NDArray[np.intp]) -> float:
         """Raise all values once, nearest rows first, so that most of a value is there after one sweep; returns the
-        greatest rise. The rows of a block do not see what becomes of each other.
+        greatest rise. In a large world threads share a block of rows, which do not see what becomes of each other.
         """
         world, effects, after = self._world.rows, self._world.effects, self._after
-        block = min(BLOCK, max(1, self._count // BLOCKS))
-        found = np.empty((block, len(after), world.length))
         flat, rise = value.reshape(-1), 0.0
-        for first in range(0, self._count, block):
-            last = min(first + block, self._count)
+        if value.size < BLOCKS_FROM:
+            return float(rows.lift_all(world, effects, after, flat, effects.cost, order))
+        found = np.empty((BLOCK, len(after), world.length))
+        for first in range(0, self._count, BLOCK):
+            last = min(first + BLOCK, self._count)
 
             def look(begin: int, end: int, first: int = first) -> None:
                 rows.look_ahead(world, effects, after, flat, effects.cost, order, begin, end, found[begin - first :])
@@ -257,12 +265,12 @@ class _Solver:
             rise = max(rise, *self._team.share(lift, first, last))
         return rise
 
-    def _choose(self, value: NDArray[np.float64]) -> tuple[NDArray[np.int16], NDArray[np.float64], float]:
+    def _choose(self, value: NDArray[np.float64], tie: float) -> tuple[NDArray[np.int16], NDArray[np.float64], float]:
         """[R, S] actions and costs after reading, and how far the costs exceed the values at most."""
         world, effects, after = self._world.rows, self._world.effects, self._after
         action = np.empty(value.shape, dtype=np.int16)  # MAX_GROUNDINGS fit
         steps = np.empty(value.shape)
-        flat = (value.reshape(-1), effects.cost, TIE, action.reshape(-1), steps.reshape(-1))
+        flat = (value.reshape(-1), effects.cost, tie, action.reshape(-1), steps.reshape(-1))
 
         def some(begin: int, end: int) -> float:
             return float(rows.choose(world, effects, after, *flat, begin, end))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -146,7 +147,7 @@ def test_rows_are_cut_where_the_letter_changes(length: int, monkeypatch: pytest.
         read = np.full(world.size, -1)
         for row in range(len(rows.first_part) - 1):
             parts = range(rows.first_part[row], rows.first_part[row + 1])
-            for part, following in zip(parts, parts[1:], strict=False):
+            for part, following in pairwise(parts):
                 touching = rows.part_end[part] == rows.part_begin[following]
                 assert not touching or rows.letter[part] != rows.letter[following], "parts are as long as can be"
             for part in parts:
