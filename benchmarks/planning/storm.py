@@ -111,7 +111,9 @@ def _check(found: Run, model: Any, query: Any, value: str, method: str) -> None:
     environment = stormpy.environments.sound()
     environment.solver().min_max().method = METHODS[method]
     with found.timed("check"):
-        result = stormpy.model_checking(model, query, extract_scheduler=True, environment=environment)
+        result = stormpy.model_checking(
+            model, query, only_initial_states=True, extract_scheduler=True, environment=environment
+        )
         result.get_scheduler()
     found.value(value, result.get_value(model.initial_states[0]))
     found.notes |= {"states": model.nr_states, "choices": model.nr_choices, "transitions": model.nr_transitions}

@@ -19,6 +19,10 @@ LENGTH = 2_048
 """Most states of a row: its values then stay in the fastest cache."""
 
 
+ROWS = 256
+"""Fewest rows: the states of one do not see what becomes of each other in a sweep."""
+
+
 class Tables(NamedTuple):
     """Ranges of the valid states and of each action, in CSR fashion; range group 0 is that of the valid states, group
     a + 1 that of action a.
@@ -72,10 +76,15 @@ class _Building:
 
 
 def outer_variables(world: Factored) -> int:
-    """How many variables number the rows: as few as leave a row of at most LENGTH states, but one at least."""
-    outer, length = len(world.radix), 1
+    """How many variables number the rows: as few as leave rows of at most LENGTH states, and ROWS of them or as many as
+    there are with one variable in each; one at least.
+    """
+    outer, rows, length = len(world.radix), prod(world.radix), 1
     while outer > 1 and length * world.radix[outer - 1] <= LENGTH:
+        if length > 1 and rows // world.radix[outer - 1] < ROWS:
+            break
         outer -= 1
+        rows //= world.radix[outer]
         length *= world.radix[outer]
     return outer
 
