@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test check format openapi train evaluate bench clean
+.PHONY: serve test check format openapi train evaluate bench bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -35,6 +35,11 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.table2
 	$(BIN)/python -m benchmarks.translate
 	$(BIN)/python -m benchmarks.startup
+	$(BIN)/python -m benchmarks.hostile
+
+bench-planning: $(VENV)/.dev  # against other planners; about half an hour
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'
+	$(BIN)/python -m benchmarks.planning --large --limit 420 --memory 16 --json docs/planning/results.json --plot docs/planning
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)

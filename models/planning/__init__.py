@@ -11,6 +11,7 @@ from models.planning.errors import (
     InvalidMemoryError,
     InvalidPolicyError,
     ModelTooLargeError,
+    UncheckableError,
 )
 from models.planning.options import Options, Progress
 from models.planning.planner import Plan, Sizes, plan
@@ -37,6 +38,7 @@ __all__ = [
     "Step",
     "Trajectory",
     "TrajectoryStep",
+    "UncheckableError",
     "check",
     "from_bytes",
     "plan",

@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 
 from models.logic import parse, translate
 from models.planning.chain import Chain, explore
-from models.planning.errors import ModelTooLargeError
+from models.planning.errors import UncheckableError
 from models.planning.lasso import bottoms
 from models.planning.policy import NOTHING, Policy
 from models.world import World
@@ -35,7 +35,7 @@ class Check:
 
     `sound`: wherever the policy says that the formula holds if it goes on for ever, its runs satisfy the formula with
     probability one. `expected_steps` is infinite when a run may stay undecided for ever. `error` bounds how far
-    rounding may have moved the probability.
+    rounding may have moved the probability. Steps are counted at their costs, as in the policy.
     """
 
     probability: float
@@ -48,14 +48,13 @@ class Check:
 def check(world: World, policy: Policy) -> Check:
     """Evaluate `policy` in `world` from the policy's initial state and memory.
 
-    Raises FormulaTooLargeError and SpotMissingError (the formula's automaton is made again), and ModelTooLargeError for
-    a chain of more than MOST_STATES states.
+    Raises FormulaTooLargeError and SpotMissingError (the formula's automaton is made again), and UncheckableError for
+    a chain of more than MOST_STATES states, or a singular one.
     """
     automaton = translate(parse(policy.formula))
     chain = explore(world, policy, most=MOST_STATES)
     if not chain.whole:
-        detail = f"the policy's Markov chain has more than {MOST_STATES} states, too many to check"
-        raise ModelTooLargeError(detail, estimate=len(chain.state), limit=MOST_STATES, unit="states")
+        raise UncheckableError(f"the policy's Markov chain has more than {MOST_STATES} states, too many to check")
     ends = bottoms(chain, policy, automaton)
     accepted = automaton.accepting[chain.after] | ((ends.label >= 0) & ends.accepted[ends.label])
     sustaining = policy.sustaining(chain.state, chain.after)
@@ -64,7 +63,7 @@ def check(world: World, policy: Policy) -> Check:
     if (_reach(chain, decided, np.zeros(len(decided)))[0] < 1 - SMALL).any():
         steps = np.inf
     else:
-        steps = float(_reach(chain, decided, np.ones(len(decided)), value=0.0)[0][0])
+        steps = float(_reach(chain, decided, chain.cost, value=0.0)[0][0])
     sound = bool((likely[sustaining] >= 1 - SMALL).all())
     return Check(min(1.0, max(0.0, float(likely[0]))), steps, sound, len(chain.state), error)
 
@@ -88,7 +87,12 @@ def _reach(
     rows = graph[open_]
     system = sparse.eye_array(len(open_), format="csc") - sparse.csc_array(rows[:, open_])
     right = cost[open_] + rows @ result
-    solver = splu(system)
+    try:
+        solver = splu(system)
+    except RuntimeError as error:
+        raise UncheckableError(
+            "the policy's Markov chain is too close to one that never ends to be evaluated"
+        ) from error
     found = solver.solve(right)
     residual = float(np.abs(system @ found - right).max())
     longest = float(solver.solve(np.ones(len(open_))).max())

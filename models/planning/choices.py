@@ -26,6 +26,7 @@ class Choices:
     first_outcome: NDArray[np.int32]  # [c + 1]
     successor: NDArray[np.int32]  # [e]
     probability: Vector  # [e]
+    settled: int = 0  # most outcomes of a choice that went into its constant
 
     @property
     def unknowns(self) -> int:
@@ -41,7 +42,7 @@ class Choices:
     def roundoff(self) -> float:
         """The relative error that one evaluation of a choice may make in floating point."""
         longest = int(np.diff(self.first_outcome).max(initial=0))
-        return (longest + 8) * 2.0**-53
+        return (longest + self.settled + 8) * 2.0**-53
 
     def only(self, chosen: NDArray[np.int32]) -> Choices:
         """The chain of a policy: `chosen` [n] is one choice of each unknown."""
@@ -52,6 +53,7 @@ class Choices:
             first_outcome=offsets(np.diff(self.first_outcome)[chosen]),
             successor=self.successor[outcome],
             probability=self.probability[outcome],
+            settled=self.settled,
         )
 
 
@@ -90,5 +92,6 @@ def gather(
         first_outcome=offsets(np.bincount(row[open_], minlength=len(rows))),
         successor=successor[open_],
         probability=probability[open_],
+        settled=int(np.bincount(row[settled]).max(initial=0)),
     )
     return problem, rows

@@ -28,10 +28,6 @@ STATE_BYTES = 64
 """Per product state: policy arrays (24), values and bounds (24), index and flags (16)."""
 
 
-ROUNDOFF = 1e-15
-"""How far the probabilities of a choice may be from 1 in sum without being scaled."""
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class CompiledWorld:
     """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by
@@ -83,6 +79,9 @@ def check_memory(world: World, memories: int, live: int, options: Options) -> No
     `live` is the number of automaton states that are iterated. The number of outcomes of a large world is
     estimated from evenly spaced states; worlds of up to SAMPLE states are small enough to be compiled first.
     """
+    if world.listed is not None:
+        _check_bytes(world.size, memories, live, len(world.listed.successor) / world.size, options)
+        return
     if world.size <= SAMPLE:
         return
     states = np.linspace(0, world.size - 1, SAMPLE).astype(np.int64)
@@ -149,7 +148,7 @@ def _from_listed(listed: Transitions, valid: NDArray[np.bool_]) -> CompiledWorld
         cost=np.insert(listed.cost, place, 1.0) if len(stuck) else listed.cost,
         first_outcome=offsets(counted),
         successor=np.insert(listed.successor, at, stuck) if len(stuck) else listed.successor,
-        probability=_normalised(probability, counted),
+        probability=probability,
     )
 
 
@@ -196,15 +195,5 @@ def _compile_block(world: World, valid: NDArray[np.bool_], start: int, stop: int
         cost=np.concatenate(cost)[order],
         outcomes=count[order],
         successor=np.concatenate(successor)[position],
-        probability=_normalised(np.concatenate(probability)[position], count[order]),
+        probability=np.concatenate(probability)[position],
     )
-
-
-def _normalised(probability: NDArray[np.float64], outcomes: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Exact to rounding: a world may give probabilities that sum to 1 only nearly, which long runs would
-    notice.
-    """
-    if not len(outcomes):
-        return probability
-    total = np.add.reduceat(probability, offsets(outcomes)[:-1])
-    return probability / np.repeat(total, outcomes) if np.abs(total - 1).max() > ROUNDOFF else probability

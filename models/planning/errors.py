@@ -4,6 +4,7 @@ CqltlError
 ├── ModelTooLargeError       more states or memory than the limit allows
 ├── DeviceUnavailableError   the device asked for is not on this machine
 ├── InvalidMemoryError       a memory that the policy does not have
+├── UncheckableError         the policy's chain cannot be evaluated
 └── InvalidPolicyError       the bytes are not a stored policy
 """
 
@@ -37,6 +38,12 @@ class InvalidMemoryError(CqltlError):
     """The memory is not one of the policy's."""
 
     slug = "invalid-memory"
+
+
+class UncheckableError(CqltlError):
+    """A policy's Markov chain is too large, or too close to singular, to be evaluated by linear systems."""
+
+    slug = "uncheckable"
 
 
 class InvalidPolicyError(CqltlError):

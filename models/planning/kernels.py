@@ -113,8 +113,8 @@ def improve(first, constant, start, successor, probability, x, policy):
 
 
 @jit
-def greedy(first, constant, start, successor, probability, x, maximise, tie, policy):
-    """Write the first choice of each node whose value is best up to `tie` · max(1, |best|) into `policy`.
+def greedy(first, constant, start, successor, probability, x, maximise, tie, least, policy):
+    """Write the first choice of each node whose value is best up to `tie` · max(least, |best|) into `policy`.
 
     Returns the greatest excess of the value of a choice taken over `x`, and the greatest shortfall of the best one.
     """
@@ -134,7 +134,7 @@ def greedy(first, constant, start, successor, probability, x, maximise, tie, pol
             worth[place] = value
             best = max(best, value) if maximise else min(best, value)
         below = max(below, x[node] - best)
-        slack = tie * max(1.0, abs(best))
+        slack = tie * max(least, abs(best))
         for place in range(count):
             if (worth[place] >= best - slack) if maximise else (worth[place] <= best + slack):
                 policy[node] = first[node] + place

@@ -62,8 +62,8 @@ class Operator(Protocol):
     def settle(self, x: Any, sweep: int) -> float:
         """One step of the chain, where each unknown has one choice, in place; returns the greatest change."""
 
-    def greedy(self, x: Any, *, maximise: bool, tie: float) -> tuple[NDArray[Any], float, float]:
-        """[n] by unknown, the first choice whose value is best up to `tie` · max(1, |best|).
+    def greedy(self, x: Any, *, maximise: bool, tie: float, least: float = 1.0) -> tuple[NDArray[Any], float, float]:
+        """[n] by unknown, the first choice whose value is best up to `tie` · max(least, |best|).
 
         Also how far the value of a choice taken exceeds `x`, at most, and how far the best one falls short.
         """
@@ -119,10 +119,12 @@ class KernelOperator:
         """See `Operator.settle`."""
         return float(kernels.settle(self._chain, *self._arrays[1:], x, sweep % 2 == 0))
 
-    def greedy(self, x: Vector, *, maximise: bool, tie: float) -> tuple[NDArray[np.int32], float, float]:
+    def greedy(
+        self, x: Vector, *, maximise: bool, tie: float, least: float = 1.0
+    ) -> tuple[NDArray[np.int32], float, float]:
         """See `Operator.greedy`."""
         policy = np.empty(self.choices.unknowns, dtype=np.int32)
-        above, below = kernels.greedy(*self._arrays, x, maximise, tie, policy)
+        above, below = kernels.greedy(*self._arrays, x, maximise, tie, least, policy)
         return policy, float(above), float(below)
 
 

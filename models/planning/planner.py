@@ -44,10 +44,11 @@ class Plan:
     all satisfies the goal. "unreachable": this world, from the initial state, cannot. Both have neither policy nor
     trajectory. "solved": the policy satisfies the goal with probability at least `lower`, and no policy does with more
     than `upper`; where the goal is the negation both are turned round, so that they bound the least probability of the
-    formula. `expected_steps` are the policy's steps until the outcome is decided (the goal holds whatever follows, or
-    will if the policy goes on for ever, or cannot any more), the fewest among policies of that probability, and lie
-    between `expected_steps` and `expected_steps_upper`, which is infinite if iteration was cut short. `round_steps`
-    bounds the expected steps of a round of what then has to be done for ever; None where there is nothing of the kind.
+    formula. `expected_steps` are the policy's steps (what they cost, where actions have costs) until the outcome is
+    decided: the goal holds whatever follows, or will if the policy goes on for ever, or cannot any more. They are the
+    fewest among policies of that probability, and lie between `expected_steps` and `expected_steps_upper`, which is
+    infinite if iteration was cut short. `round_steps` bounds the expected steps of a round of what then has to be done
+    for ever; None where there is nothing of the kind, or the policy's runs are too many to see.
     """
 
     outcome: Outcome
@@ -103,7 +104,7 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
     if not isinstance(solution, Solution):
         return _hopeless("unreachable", part, automaton, start)
     policy = _policy(world, part, automaton, solution, start)
-    chain = explore(world, policy)
+    chain = explore(world, policy, progress=progress)
     return Plan(
         outcome="solved",
         lower=solution.lower,
@@ -124,16 +125,15 @@ def _part(world: World, automaton: Automaton, start: int, settings: Options) -> 
     if not settings.relevance or automaton.acceptance or not isinstance(world, OomdpWorld):
         return world
     after = automaton.successors
-    if (
-        after[after, np.arange(after.shape[1])] != after
-    ).any():  # repeating a letter is not always the same as reading it once
+    twice = after[after, np.arange(after.shape[1])]
+    if (twice != after).any():  # to read a letter twice is not always the same as to read it once
         return world
     return relevant_part(world, automaton.atoms, start) or world
 
 
 def _rounds(chain: Chain, policy: Policy, solution: Solution) -> tuple[float, float] | None:
     """Bounds of the expected steps of a round, over the end components that the policy may come to."""
-    if solution.component is None:
+    if solution.component is None or not chain.whole:
         return None
     row = policy.row[chain.after]
     component = np.where(row >= 0, solution.component[row, policy.place(chain.state)], -1)

@@ -145,5 +145,11 @@ def to_json(policy: Policy) -> dict[str, Any]:
         "letter": policy.letter.tolist(),
         "action": policy.action.ravel().tolist(),
         "probability": np.round(policy.probability, 9).ravel().tolist(),
-        "expected_steps": np.round(policy.expected_steps, 9).ravel().tolist(),
+        "expected_steps": _rounded(policy.expected_steps).ravel().tolist(),
     }
+
+
+def _rounded(steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """To 9 decimals, but never to 0 what is more: 0 has a meaning."""
+    rounded: NDArray[np.float64] = np.round(steps, 9)
+    return np.where((rounded == 0) & (steps > 0), steps, rounded)

@@ -53,6 +53,7 @@ class Probability:
 
     lower: Vector  # [n + 2]
     upper: Vector  # [n + 2]
+    proved: bool  # the lower bounds are the values but for rounding, and the upper ones were proved
 
     @property
     def gap(self) -> float:
@@ -61,9 +62,15 @@ class Probability:
 
     @property
     def estimate(self) -> Vector:
-        """[n + 2] the middle; the bounds themselves where they meet."""
-        middle: Vector = (self.lower + self.upper) / 2
-        return middle
+        """[n + 2] the best guess: the lower bounds, which iteration brings to the values while upper ones are only
+        proved; the middle where both were squeezed together.
+        """
+        return self.lower if self.proved else (self.lower + self.upper) / 2
+
+    @property
+    def slack(self) -> float:
+        """How far the worth of choices that tie may seem to differ."""
+        return 0.0 if self.proved else 2 * self.gap
 
 
 def maximal_probability(
@@ -82,13 +89,13 @@ def maximal_probability(
     """
     lower = qualities.certain.astype(np.float64)
     upper = qualities.certain.astype(np.float64)
-    maybe = qualities.possible & ~qualities.certain
+    maybe, proved = qualities.possible & ~qualities.certain, True
     if maybe.any():
         unknown, choices = _quotient(product, graph, maybe, lower, progress)
-        low, high = iterate_intervals(choices, int(unknown[initial]), options=options, progress=progress)
+        low, high, proved = iterate_intervals(choices, int(unknown[initial]), options=options, progress=progress)
         lower[maybe] = low[unknown[maybe]]
         upper[maybe] = high[unknown[maybe]]
-    return Probability(lower, upper)
+    return Probability(lower, upper, proved)
 
 
 def _quotient(
@@ -108,9 +115,9 @@ def _quotient(
 
 def iterate_intervals(
     choices: Choices, watched: int, *, options: Options, progress: Progress = no_progress
-) -> tuple[Vector, Vector]:
+) -> tuple[Vector, Vector, bool]:
     """Lower and upper bounds of the maximal values of choices under which every policy leaves the unknowns
-    for sure.
+    for sure; and whether the lower ones are the values but for rounding.
 
     `watched` is the unknown whose bounds progress reports; -1 for a value that is settled already.
     """
@@ -123,26 +130,28 @@ def iterate_intervals(
             low, high = (1.0, 1.0) if known else (operator.at(lower, watched), operator.at(upper, watched))
             progress("probability", sweep, low, high, choices.unknowns)
 
-    sweeps = 0
+    sweeps, rise = 0, np.inf
     for sweeps in range(1, options.max_sweeps + 1):
         rise = operator.ascend(lower)
         tell(sweeps)
         if rise <= RISE:
             break
         if sweeps == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
-            lower, upper = _solve_directly(operator, lower, upper, lambda: tell(DIRECT_AFTER))
             break
-    proved = _prove(operator, lower, partial(tell, sweeps))
+    proved = _prove(operator, lower, options.epsilon, partial(tell, sweeps))
+    cut = sweeps == options.max_sweeps and rise > RISE
+    if proved is None and not cut and choices.unknowns <= DIRECT_LIMIT:
+        lower, upper = _solve_directly(operator, lower, upper, partial(tell, sweeps))
     if proved is not None:
         upper = operator.vector(np.minimum(operator.numpy(proved), operator.numpy(upper)))
         tell(sweeps + 1)
-        return operator.numpy(lower), operator.numpy(upper)
-    return _close(operator, lower, upper, sweeps, options, tell)
+        return operator.numpy(lower), operator.numpy(upper), True
+    return *_close(operator, lower, upper, sweeps, options, tell), False
 
 
-def _prove(operator: Operator, lower: Any, alive: Callable[[], None]) -> Any | None:
-    """Upper bounds close above lower ones, or None where no guess is proved."""
-    for guess in GUESSES:
+def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[], None]) -> Any | None:
+    """Upper bounds at most `epsilon` above the lower ones, or None where no such guess is proved."""
+    for guess in (guess for guess in GUESSES if guess <= epsilon / 2):
         upper = operator.vector(np.minimum(1.0, operator.numpy(lower) + guess))
         growth = np.inf
         for _ in range(PROOF_SWEEPS):
@@ -165,7 +174,7 @@ def _close(
         tell(sweep)
         if gap <= min(PRECISION, options.epsilon):
             break
-        if gap == previous and sweep % DIRECT_AFTER == 0 and gap <= options.epsilon:  # as close as it gets
+        if gap == previous and sweep % DIRECT_AFTER == 0:  # as close as floating point gets
             break
     return operator.numpy(lower), operator.numpy(upper)
 

@@ -10,6 +10,8 @@ decision processes", CAV 2017). Long rounds make it creep, so small components g
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -56,12 +58,13 @@ def shortest_rounds(
     count = int(group.max()) + 1
     h, low, high = _iterate(problem, group, count, options, progress)
     policy = np.empty(problem.unknowns, dtype=np.int32)
-    kernels.greedy(*problem.arrays, h, True, TIE, policy)
+    kernels.greedy(*problem.arrays, h, True, TIE, 1.0, policy)
     size = np.bincount(group, minlength=count)
     for one in np.flatnonzero((high - low > PRECISION * high) & (size <= DIRECT_LIMIT)).tolist():
         progress("rounds", DIRECT_AFTER, 1.0 / float(high[one]), np.inf, int(size[one]))
         places = np.flatnonzero(group == one).astype(np.int32)
-        h[places], policy[places] = _improve(problem, places, policy[places])
+        with suppress(RuntimeError):  # a singular system: what iteration found stays
+            h[places], policy[places] = _improve(problem, places, policy[places])
     out, unused = np.empty(problem.unknowns), np.empty(count)
     kernels.average(*problem.arrays, h, out, group, DAMPING, unused, high)
     chain = problem.only(policy)

@@ -1,5 +1,6 @@
-"""Seeded runs of a policy in the world itself, not in the planner's product: an independent check of its
-claims.
+"""Seeded runs of a policy in the world itself, not in the planner's product.
+
+A run ends where the policy says that the formula holds if it goes on: `check` tells whether that is so.
 """
 
 from __future__ import annotations

@@ -102,7 +102,7 @@ def _optimise(
     best: tuple[Steps, Attained] | None = None
     least = np.inf
     for slack in SLACKS:
-        kept = conserving(product, qualities, probability, max(slack, 0.0 if best else 2 * probability.gap))
+        kept = conserving(product, qualities, probability, max(slack, 0.0 if best else probability.slack))
         steps = fewest_steps(product, graph, qualities, kept, node, options=options, progress=progress)
         if steps is None:
             break

@@ -146,9 +146,15 @@ def _solve(
         if sweep == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
             x = _solve_directly(operator, x, towards, least, partial(tell, sweep, change))
     operator.improve(x)
-    policy, above, below = operator.greedy(x, maximise=False, tie=TIE)
-    low = operator.numpy(x) / (1.0 + max(below, 0.0) / least)
-    error = (max(above, 0.0) + max(below, 0.0)) / least
+    exact = bool((choices.probability == 1).all() and (choices.constant == np.floor(choices.constant)).all())
+    rounding = 0.0 if exact else choices.roundoff * float(operator.numpy(x).max())  # whole numbers are exact
+    for tie in (TIE, 0.0):  # where steps are many a tie may be worth more than a step
+        policy, above, below = operator.greedy(x, maximise=False, tie=tie, least=least)
+        above, below = max(above, 0.0) + rounding, max(below, 0.0) + rounding
+        if above + below < least:
+            break
+    low = operator.numpy(x) / (1.0 + below / least)
+    error = (above + below) / least
     return (policy if error < 1.0 else towards), low, error
 
 
@@ -156,6 +162,6 @@ def _solve_directly(
     operator: Operator, x: Any, towards: NDArray[np.int32], least: float, alive: Callable[[], None]
 ) -> Any:
     """The optimum from policy iteration, if it gives one; else `x`."""
-    greedy, above, _ = operator.greedy(x, maximise=False, tie=TIE)
+    greedy, above, _ = operator.greedy(x, maximise=False, tie=TIE, least=least)
     proposal = Improver(operator.choices, maximise=False).improve(greedy if above < least else towards, alive)
     return x if proposal is None else operator.vector(proposal.value)

@@ -91,10 +91,12 @@ class TensorOperator:
         x.copy_(out)
         return change
 
-    def greedy(self, x: torch.Tensor, *, maximise: bool, tie: float) -> tuple[NDArray[np.int32], float, float]:
+    def greedy(
+        self, x: torch.Tensor, *, maximise: bool, tie: float, least: float = 1.0
+    ) -> tuple[NDArray[np.int32], float, float]:
         """See `Operator.greedy`."""
         best = self._apply(x, maximise=maximise)
-        slack = tie * torch.clamp(best.abs(), min=1.0)
+        slack = tie * torch.clamp(best.abs(), min=least)
         limit = best - slack if maximise else best + slack
         rank = torch.zeros(len(best), dtype=torch.int64, device=self.device)
         for number in reversed(range(len(self._slots))):

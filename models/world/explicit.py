@@ -17,7 +17,7 @@ from models.world.report import Report
 from models.world.resolution import bind_names
 from models.world.specs import ExplicitSpec, TransitionSpec
 from models.world.states import decode_state, encode_state
-from models.world.transitions import Transitions
+from models.world.transitions import Transitions, scaled
 from models.world.vocabulary import Vocabulary
 from models.world.world import Outcomes, State, Variable
 
@@ -101,13 +101,13 @@ class ExplicitWorld:
         choice = self._choices(action, wanted)
         enabled = choice >= 0
         at = np.where(enabled, choice, 0)
-        count = np.where(enabled, np.diff(listed.first_outcome)[at] if len(at) else 0, 0)
+        count = np.where(
+            enabled, listed.first_outcome[at + 1] - listed.first_outcome[at] if len(listed.action) else 0, 0
+        )
         width = max(1, int(count.max(initial=0)))
         place = listed.first_outcome[at] + np.arange(width)[:, None]  # [k, n]
         happens = np.arange(width)[:, None] < count
         place = np.where(happens, place, 0)
-        if not len(listed.successor):
-            return Outcomes(enabled, np.zeros((width, len(wanted))), np.broadcast_to(wanted, (width, len(wanted))))
         return Outcomes(
             enabled,
             np.where(happens, listed.probability[place], 0.0),
@@ -208,4 +208,5 @@ def _merged(transition: TransitionSpec) -> dict[int, float]:
     for state, chance in transition.to:
         if chance > 0:
             chances[int(state)] = chances.get(int(state), 0.0) + chance
-    return chances
+    total = sum(chances.values())
+    return {state: float(scaled(np.array(chance), np.array(total))) for state, chance in chances.items()}

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from models.world.actions import GroundedAction
 from models.world.algebra import Algebra, Combined, Table, Value
+from models.world.transitions import scaled
 
 WIDE = 2**16
 """Entries of a table of an action or a range: what has no better form is tabulated up to this size."""
@@ -88,7 +89,7 @@ def _action(algebra: Algebra, index: int, action: GroundedAction) -> FactoredAct
         index=index,
         ranges=guard,
         scope=scope,
-        probability=probability.astype(np.float64),
+        probability=scaled(probability.astype(np.float64), probability.sum(axis=0)),
         shift=np.where(probability > 0, shift, 0),
         changes=action.changes,
         cost=action.cost,

@@ -21,7 +21,7 @@ from models.world.model import Model
 from models.world.names import NONE
 from models.world.resolution import bind_names
 from models.world.states import decode_state, encode_state
-from models.world.transitions import Transitions
+from models.world.transitions import Transitions, scaled
 from models.world.vocabulary import Vocabulary
 from models.world.world import Outcomes, State, Variable
 
@@ -144,6 +144,7 @@ def _outcomes(action: GroundedAction, frame: Frame, here: NDArray[np.int64]) -> 
         successor[index] += here
     if not action.merged:
         merge_outcomes(probability, successor, here)
+    probability = scaled(probability, probability.sum(axis=0))
     return Outcomes(enabled.reshape(-1), probability.reshape(count, -1), successor.reshape(count, -1))
 
 

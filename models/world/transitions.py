@@ -15,7 +15,7 @@ STAY = -1
 class Transitions:
     """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by choice.
 
-    All probabilities are positive, and those of a choice sum to 1 up to rounding. C choices, E outcomes.
+    All probabilities are positive, and those of a choice sum to 1 up to rounding (`scaled`). C choices, E outcomes.
     """
 
     first_choice: NDArray[np.int32]  # [S + 1]
@@ -24,3 +24,16 @@ class Transitions:
     first_outcome: NDArray[np.int32]  # [C + 1]
     successor: NDArray[np.int32]  # [E]
     probability: NDArray[np.float64]  # [E]
+
+
+ROUNDOFF = 1e-15
+"""How far the probabilities of a choice may be from 1 in sum without being scaled."""
+
+
+def scaled(probability: NDArray[np.float64], total: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Probabilities exact to rounding: a world may give some that sum to 1 only nearly, which long runs would notice.
+
+    `total` are the sums, in a shape that broadcasts.
+    """
+    off = np.abs(total - 1) > ROUNDOFF
+    return probability / np.where(off & (total > 0), total, 1.0) if off.any() else probability

@@ -141,9 +141,13 @@ def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedStat
     return tuple((world.decode(step.state), step.memory, step.action) for step in steps)
 
 
-def _verified(world: World, policy: Policy, objective: Objective) -> Verified:
-    from models.planning import check
+def _verified(world: World, policy: Policy, objective: Objective) -> Verified | None:
+    """None where the policy's Markov chain cannot be evaluated."""
+    from models.planning import UncheckableError, check
 
-    found = check(world, policy)
-    goal = min(max(found.probability, 0.0), 1.0)  # it is right but for rounding
+    try:
+        found = check(world, policy)
+    except UncheckableError:
+        return None
+    goal = found.probability
     return Verified(1.0 - goal if objective == "min" else goal, found.expected_steps, found.sound, found.states)

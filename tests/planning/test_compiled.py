@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from importlib.resources import files
+
 import numpy as np
 import pytest
+import yaml
 
+import models.world as worlds
 from models.logic import parse
 from models.planning import ModelTooLargeError, Options, plan
 from models.planning import compiled as module
@@ -48,8 +52,30 @@ def test_forbidden_states_have_no_choices() -> None:
 
 
 def test_probabilities_that_sum_to_one_nearly_are_scaled() -> None:
-    world = ArrayWorld(2, {0: {"go": {0: 0.333333333, 1: 0.666666666}}}, {})
-    assert compile_world(world).probability[:2].sum() == pytest.approx(1.0, abs=1e-15)
+    thirds = [[0, 0.333333333], [1, 0.333333333], [2, 0.333333333]]
+    spec = {
+        "name": "thirds",
+        "kind": "explicit",
+        "states": 3,
+        "transitions": [{"from": 0, "action": "go", "to": thirds}],
+    }
+    world = worlds.compile_world(worlds.load_environment(spec))
+    assert compile_world(world).probability[:3].sum() == pytest.approx(1.0, abs=1e-15)
+    assert world.outcomes(0, np.array([0])).probability.sum() == pytest.approx(1.0, abs=1e-15)
+
+
+def test_so_are_those_of_the_world_language() -> None:
+    slip = worlds.toys_spec(columns=2, rows=1, toys=1)
+    domain = yaml.safe_load((files("models.world") / "domains" / "toys.yaml").read_text())
+    for outcome in domain["actions"]["north"]["outcomes"]:
+        outcome["probability"] = 0.333333333
+    del slip["domain"]
+    world = worlds.compile_world(worlds.load_environment({**slip, "domain_spec": domain}))
+    north = world.actions.index("north")
+    assert world.outcomes(north).probability.sum(axis=0) == pytest.approx(1.0, abs=1e-15)
+    assert isinstance(world, worlds.OomdpWorld)
+    assert world.factored is not None
+    assert world.factored.actions[north].probability.sum(axis=0) == pytest.approx(1.0, abs=1e-15)
 
 
 class Untouchable(ArrayWorld):

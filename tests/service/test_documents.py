@@ -16,8 +16,8 @@ from service.settings import Settings
 DOCS = Path(__file__).parents[2] / "docs"
 
 INTERNAL = {"error", "invalid-name", "invalid-policy", "invalid-vocabulary", "invalid-weights", "invalid-training"}
-INTERNAL |= {"export-too-large", "storm-missing", "prism-syntax", "prism-constant", "prism-model"}  # the command line's
-"""Slugs of refusals that no request can meet."""
+INTERNAL |= {"export-too-large", "storm-missing", "prism-syntax", "prism-constant", "prism-model", "uncheckable"}
+"""Slugs of refusals that no request can meet: some are the command line's, some turn into something else."""
 
 
 def slugs(kind: type[CqltlError]) -> set[str]:

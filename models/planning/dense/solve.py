@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic import Automaton
-from models.planning.dense import rows
+from models.planning.dense import compression, rows
 from models.planning.dense.tables import Effects, flatten, outer_variables
 from models.planning.dense.team import Team
+from models.planning.direct import DIRECT_LIMIT
 from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import INVALID, NOTHING
@@ -44,6 +45,12 @@ SAMPLE = 32
 MEMORY_BYTES = 20
 """Per state and memory: value and cost (16), distance while they are not there yet, action, probability."""
 
+
+ROUNDOFF = 16 * 2.0**-53
+"""Relative error that the worth of a choice with a few outcomes may have in floating point."""
+
+SLOW = 200
+"""Sweeps after which a small world is left to the solver that solves linear systems."""
 
 BLOCKS_FROM = 5_000_000
 """Product states from which the rows of a sweep are taken in blocks: threads then save more than it takes to start
@@ -105,11 +112,8 @@ def solve(
         dense = compress(factored, letter, team)
         letter[~dense.valid] = INVALID
         solver = _Solver(dense, after, team, options, progress)
-        distance = solver.sure_distance(losing=bool(automaton.rejecting.any()))
-        if distance is None:
-            return UNSURE
         row = int(_rows(automaton)[automaton.successors[automaton.initial, letter[start]]])
-        return solver.cheapest(letter, row, start, distance)
+        return solver.cheapest(letter, row, start, losing=bool(automaton.rejecting.any()))
 
 
 def compress(world: Factored, letter: NDArray[np.signedinteger], team: Team | None = None) -> Compressed:
@@ -119,14 +123,14 @@ def compress(world: Factored, letter: NDArray[np.signedinteger], team: Team | No
     count = len(letter) // length
 
     def some(begin: int, end: int) -> tuple[NDArray[Any], ...]:
-        found: tuple[NDArray[Any], ...] = rows.compress(tables, effects, length, end - begin, begin)
+        found: tuple[NDArray[Any], ...] = compression.compress(tables, effects, length, end - begin, begin)
         return found
 
     parts = [some(0, count)] if team is None else team.share(some, 0, count)
     offset = np.cumsum([0, *(len(part[1]) for part in parts)])
     first = np.concatenate([[0], *(part[0][1:] + before for part, before in zip(parts, offset, strict=False))])
     effect, begin, end, valid = (_joined([part[k] for part in parts]) for k in range(1, 5))
-    pieces = rows.split(letter, valid, length, count)
+    pieces = compression.split(letter, valid, length, count)
     return Compressed(Rows(length, first, effect, begin, end, *pieces), effects, valid)
 
 
@@ -154,7 +158,7 @@ def _check_bytes(states: int, live: int, world: Factored, options: Options) -> N
     length = prod(world.radix[outer_variables(world) :])
     count = states // length
     sample = np.unique(np.linspace(0, count - 1, SAMPLE).astype(np.int64)).tolist()
-    entries = sum(len(rows.compress(tables, effects, length, 1, row)[1]) for row in sample) / len(sample)
+    entries = sum(len(compression.compress(tables, effects, length, 1, row)[1]) for row in sample) / len(sample)
     estimate = states * (STATE_BYTES + live * MEMORY_BYTES) + int(count * entries) * ENTRY_BYTES
     if estimate > options.max_bytes:
         raise ModelTooLargeError(
@@ -182,13 +186,9 @@ class _Solver:
         distance = self._search(np.zeros((0, 0), dtype=np.bool_))
         if not losing and rows.all_reached(self._world.rows, self._after, distance):
             return distance
-        possible = inside = distance < rows.INFINITE
-        while True:
-            distance = self._search(inside)
-            fewer = distance < rows.INFINITE
-            if (fewer == inside).all():
-                return distance if (inside == possible).all() else None
-            inside = fewer
+        possible = distance < rows.INFINITE
+        distance = self._search(possible)
+        return distance if ((distance < rows.INFINITE) == possible).all() else None
 
     def _search(self, inside: NDArray[np.bool_]) -> NDArray[np.int32]:
         """[R, S] by memory before reading, the fewest steps that may lead to acceptance."""
@@ -207,11 +207,14 @@ class _Solver:
         return distance
 
     def cheapest(
-        self, letter: NDArray[np.int32], row: int, start: int, distance: NDArray[np.int32]
+        self, letter: NDArray[np.int32], row: int, start: int, *, losing: bool
     ) -> Solution | Literal["unsure"] | None:
         """The cheapest policy where acceptance is sure; None where it is impossible in state `start`, which is entered
         with the memory of `row` (-1: accepted, -2: failed).
         """
+        distance = self.sure_distance(losing=losing)
+        if distance is None:
+            return UNSURE
         least = float(self._world.effects.cost.min())
         order = np.argsort(rows.nearness(self._world.rows, distance), kind="stable")
         value = np.empty(distance.shape)
@@ -222,8 +225,11 @@ class _Solver:
             self._progress("steps", sweep, 0.0, np.inf, value.size)
             if rise <= RESIDUAL * least:
                 break
+            if sweep == SLOW and value.size <= DIRECT_LIMIT:
+                return UNSURE  # small enough to be solved directly
         for tie in (TIE, 0.0):
             action, steps, excess = self._choose(value, tie)
+            excess += self._rounding(float(steps.max(initial=0)))
             if excess < least:
                 break
         else:
@@ -242,6 +248,12 @@ class _Solver:
             component=None,
             rounds=np.zeros((0, 2)),
         )
+
+    def _rounding(self, greatest: float) -> float:
+        """How much the worth of a choice may be off in floating point; whole numbers are exact."""
+        effects = self._world.effects
+        exact = bool((effects.probability == 1).all() and (effects.cost == np.floor(effects.cost)).all())
+        return 0.0 if exact else ROUNDOFF * greatest
 
     def _sweep(self, value: NDArray[np.float64], order: NDArray[np.intp]) -> float:
         """Raise all values once, nearest rows first, so that most of a value is there after one sweep; returns the

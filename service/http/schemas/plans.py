@@ -134,7 +134,8 @@ class PlanResponse(BaseModel):
     environment: str
     probability: Bounds = Field(description="Maximal, or minimal, probability of satisfying the formula.")
     expected_steps: float | None = Field(
-        description="Minimal expected steps until the outcome is decided; a lower bound, see `expected_steps_upper`."
+        description="Minimal expected steps (or costs, where actions have costs) until the outcome is decided; "
+        "a lower bound, see `expected_steps_upper`."
     )
     expected_steps_upper: float | None = Field(
         description="The minimal expected steps are no more than this; null where no bound was found in time."
@@ -157,6 +158,8 @@ class PlanResponse(BaseModel):
         description="The run comes to where the goal is satisfied, or will be by going on; else it was cut short."
     )
     policy: PolicySummary | None
-    verified: VerifiedOut | None = Field(description="Null without `verify`, and without a policy.")
+    verified: VerifiedOut | None = Field(
+        description="Null without `verify`, without a policy, and where its runs are too many or too long to evaluate."
+    )
     model: ModelSize
     timing: Timing

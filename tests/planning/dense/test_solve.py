@@ -44,6 +44,12 @@ def solutions(world: OomdpWorld, automaton: Automaton, start: int | None = None)
     return found, known
 
 
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small worlds in which it creeps are otherwise left to the sparse solver."""
+    monkeypatch.setattr(module, "SLOW", 10**9)
+
+
 def compare(world: OomdpWorld, text: str) -> str:
     """The two agree in every state and memory; says how the dense one answered."""
     automaton = translate(parse(text))
@@ -291,3 +297,13 @@ def test_the_same_input_gives_the_same_bytes() -> None:
             result = plan(task.world, parse(task.text), options=WHOLE)
             made.append(None if result.policy is None else to_bytes(result.policy))
         assert made[0] == made[1]
+
+
+def test_a_small_world_in_which_it_creeps_is_left_to_the_sparse_solver(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "SLOW", 200)
+    world = world_of(toys_spec(columns=4, rows=1, toys=1, slip=0.999999))
+    automaton = translate(parse("F in(cylinder, box)"))
+    assert dense.solve(world, automaton, world.initial, options=WHOLE) is dense.UNSURE
+    result = plan(world, parse("F in(cylinder, box)"), options=WHOLE)
+    assert result.policy is not None
+    assert check(world, result.policy).expected_steps == pytest.approx(result.expected_steps, rel=1e-6)
