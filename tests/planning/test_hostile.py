@@ -32,7 +32,7 @@ import json, resource, sys, time
 from models.logic import FormulaTooLargeError, atoms, parse
 from models.planning import plan
 from tests.planning.doubles import ArrayWorld
-moves = {s: {"on": {(s + 1) % 8: 0.9, (s * 3 + 1) % 8: 0.1}, "back": {s // 2: 1.0}} for s in range(7)}
+moves = {s: {"on": {(s + 1) % 8: 0.9, (s * 3 + 2) % 8: 0.1}, "back": {s // 2: 1.0}} for s in range(7)}
 for line in sys.stdin:
     begin = time.process_time()
     try:

@@ -142,7 +142,7 @@ def test_malformed_json_has_line_and_column(client: httpx.Client) -> None:
 
 def test_the_server_answers_while_it_plans(client: httpx.Client) -> None:
     body = {
-        "ltl": "F (in(cylinder, box) & F (in(sphere, box) & F holding(orange)))",
+        "ltl": "G F in(cylinder, box) & G F !in(cylinder, box) & G F holding(sphere)",
         "environment": "toys",
         "options": {"timeout_s": 20},
     }
