@@ -261,14 +261,18 @@ def choose(world, effects, after, value, cost, tie, action, steps, first, last):
                     better = worth[j] + slack < steps[at + j]
                     action[at + j] = number if better else action[at + j]
                     steps[at + j] = worth[j] if better else steps[at + j]
-            for part in range(world.first_part[row], world.first_part[row + 1]):
-                for memory in range(live):
-                    if after[memory, world.letter[part]] == then:
-                        before = np.uintp(memory * states + base)
-                        for j in range(np.uintp(world.part_begin[part]), np.uintp(world.part_end[part])):
-                            if steps[at + j] < np.inf:
-                                more = steps[at + j] - value[before + j]
-                                excess = more if more > excess else excess
+        for part in range(world.first_part[row], world.first_part[row + 1]):
+            for memory in range(live):
+                then = after[memory, world.letter[part]]
+                if then < 0:
+                    continue
+                at, before = np.uintp(then * states + base), np.uintp(memory * states + base)
+                for j in range(np.uintp(world.part_begin[part]), np.uintp(world.part_end[part])):
+                    if steps[at + j] < np.inf:
+                        more = steps[at + j] - value[before + j]
+                        excess = more if more > excess else excess
+        for then in range(live):
+            at = np.uintp(then * states + base)
             for j in range(np.uintp(n)):
                 steps[at + j] = steps[at + j] if steps[at + j] < np.inf else 0.0
     return excess
