@@ -29,22 +29,11 @@ STATE_BYTES = 64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CompiledWorld:
-    """Choices (a state with one of its enabled actions) sorted by state, then by action; outcomes sorted by
-    choice.
-
-    Every valid state has at least one choice, every choice at least one outcome; all probabilities are
-    positive.
-    """
+class CompiledWorld(Transitions):
+    """The transitions of all states: every valid state has at least one choice, to STAY where there is no other."""
 
     states: int
     valid: NDArray[np.bool_]  # [S]
-    first_choice: NDArray[np.int32]  # [S + 1]
-    action: NDArray[np.int32]  # [C]  index of the action, or STAY
-    cost: NDArray[np.float64]  # [C]
-    first_outcome: NDArray[np.int32]  # [C + 1]
-    successor: NDArray[np.int32]  # [E]
-    probability: NDArray[np.float64]  # [E]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
