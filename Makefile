@@ -3,13 +3,16 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test check format openapi train evaluate bench bench-planning clean
+.PHONY: serve test fuzz check format openapi train evaluate bench bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
 
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest
+
+fuzz: $(VENV)/.dev  # the tests with random examples never seen before
+	CQLTL_FUZZ=1 $(BIN)/python -m pytest
 
 check: $(VENV)/.dev
 	$(BIN)/ruff check .
