@@ -3,19 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from models.planning.kernels import runs
 from models.planning.options import Progress, no_progress
-from models.planning.policy import NOTHING, Policy
-from models.world import World
+from models.planning.policy import NOTHING, WAIT, Policy
+from models.planning.ragged import unsigned
+from models.world import Transitions, World
 
 TABLE = 1 << 26
 """Product states up to which a table tells which are known."""
 
 MOST_STATES = 5_000_000
 """Product states beyond which a chain is not explored."""
+
+BUDGET = 1_000_000
+"""Outcomes followed between two reports of progress."""
+
+IMPOSSIBLE = -3
+"""The choice of an action that is not enabled."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +51,8 @@ def explore(world: World, policy: Policy, *, most: int = MOST_STATES, progress: 
 
     States are told apart by their places: what has no place in the policy does not change while it is followed.
     """
+    if world.listed is not None and policy.places == world.size and policy.places * policy.memories <= TABLE:
+        return _explore_listed(world, world.listed, policy, most, progress)
     state = np.array([policy.initial_state], dtype=np.int64)
     after = policy.after(state, np.array([policy.initial_memory], dtype=np.int32))
     known = _Known(policy.places * policy.memories)
@@ -73,6 +84,49 @@ def explore(world: World, policy: Policy, *, most: int = MOST_STATES, progress: 
         probability[inside],
         not len(state),
     )
+
+
+def _explore_listed(world: World, listed: Transitions, policy: Policy, most: int, progress: Progress) -> Chain:
+    """As `explore`, where the transitions are listed and the policy tells all states apart."""
+    most = min(most, policy.places * policy.memories)
+    known = np.full((policy.memories, policy.places), -1, dtype=np.int32)
+    letter, row = policy.letter.astype(np.int32), policy.row.astype(np.int32)
+    arrays = (policy.successors, letter, row, policy.action.astype(np.int32))
+    first_choice, start, successor = map(unsigned, (listed.first_choice, listed.first_outcome, listed.successor))
+    # No outcome has more entries than there are to number; pages that are not written take no memory.
+    state, memory, choice = (np.empty(known.size, dtype=np.int32) for _ in range(3))
+    state[0] = policy.initial_state
+    memory[0] = policy.after(np.array([policy.initial_state]), np.array([policy.initial_memory], dtype=np.int32))[0]
+    known[memory[0], state[0]] = 0
+    ends, number = np.array([0, 1, 0]), 0
+    while ends[0] < ends[1] <= most:
+        number += 1
+        runs.follow(
+            arrays, first_choice, listed.action, start, successor,
+            known, state, memory, choice, ends, most, BUDGET,
+        )  # fmt: skip
+        progress("evaluate", number, 0.0, np.inf, int(ends[1]))
+    seen = int(ends[0])
+    state, memory, choice = state[:seen], memory[:seen], choice[:seen]
+    if (choice == IMPOSSIBLE).any():
+        place = int(np.argmax(choice == IMPOSSIBLE))
+        _refuse(world, int(policy.acting(state[place], memory[place])))
+    first, target, probability = np.empty(seen + 1, dtype=np.int64), np.empty(ends[2], dtype=np.int64), np.empty(ends[2])
+    count = runs.outcomes(
+        policy.successors, letter, start, successor, listed.probability,
+        known, state, memory, choice, first, target, probability,
+    )  # fmt: skip
+    acts = choice >= 0
+    action = np.where(choice == -1, NOTHING, WAIT).astype(np.int64)
+    action[acts] = listed.action[choice[acts]]
+    cost = (action != NOTHING).astype(np.float64)
+    cost[acts] = listed.cost[choice[acts]]
+    whole = bool(ends[0] == ends[1])
+    return Chain(state.astype(np.int64), memory, action, cost, first, target[:count], probability[:count], whole)
+
+
+def _refuse(world: World, action: int) -> NoReturn:
+    raise AssertionError(f"the policy takes {world.actions[action]} where it is not possible")
 
 
 class _Known:
@@ -120,7 +174,7 @@ def _move(
         places = np.flatnonzero(action == one)
         outcomes = world.outcomes(one, states=state[places])
         if not outcomes.enabled.all():
-            raise AssertionError(f"the policy takes {world.actions[one]} where it is not possible")
+            _refuse(world, one)
         cost[places] = world.cost(one, state[places])
         place, kind = np.nonzero(outcomes.probability.T)
         found.append((places[place], outcomes.successor[kind, place], outcomes.probability[kind, place]))

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from models.planning.kernels import layout
 from models.planning.product import Product
-from models.planning.ragged import offsets, spans
+from models.planning.ragged import offsets, spans, unsigned
 
 Vector = NDArray[np.float64]
 
@@ -34,9 +35,10 @@ class Choices:
         return len(self.first_choice) - 1
 
     @property
-    def arrays(self) -> tuple[NDArray[np.int32], Vector, NDArray[np.int32], NDArray[np.int32], Vector]:
+    def arrays(self) -> tuple[NDArray[np.uint32], Vector, NDArray[np.uint32], NDArray[np.uint32], Vector]:
         """What the kernels read, in their order."""
-        return self.first_choice, self.constant, self.first_outcome, self.successor, self.probability
+        first, start = unsigned(self.first_choice), unsigned(self.first_outcome)
+        return first, self.constant, start, unsigned(self.successor), self.probability
 
     @property
     def roundoff(self) -> float:
@@ -59,39 +61,27 @@ class Choices:
 
 def gather(
     product: Product,
-    chosen: NDArray[np.integer],
+    kept: NDArray[np.bool_],
     *,
     unknown: NDArray[np.int32],
     known: Vector,
-    owner: NDArray[np.int32],
-    cost: float | Vector,
+    cost: Vector | None = None,
 ) -> tuple[Choices, NDArray[np.int32]]:
-    """The product's choices `chosen` as a numeric problem, and the product's choice that each of its choices is.
+    """The choices `kept` ([C]) of the nodes that are an unknown as a numeric problem, and the product's choice that each
+    of its choices is.
 
-    `unknown` ([n + 2]) numbers the unknown of each node and column, -1 where `known` ([n + 2]) gives its
-    value instead; several nodes may share one unknown. `owner` is the unknown that each of `chosen` belongs
-    to; `cost`, one or one for each of `chosen`, is added.
+    `unknown` ([n + 2]) numbers the unknown of each node, -1 where `known` ([n + 2]) gives the value of the node or
+    column instead; several nodes may share one unknown. `cost` ([C]) is added.
     """
-    rows = chosen.astype(np.int32)
-    if len(owner) and (np.diff(owner) < 0).any():
-        order = np.argsort(owner, kind="stable")
-        rows, owner = rows[order], owner[order]
-        cost = cost if isinstance(cost, float) else cost[order]
-    outcome = spans(product.first_outcome, rows)
-    row = np.repeat(np.arange(len(rows), dtype=np.int32), np.diff(product.first_outcome)[rows])
-    node = product.successor[outcome]
-    probability = product.probability[outcome]
-    successor = unknown[node]
-    open_ = successor >= 0
-    settled = ~open_
-    share = probability[settled] * known[node[settled]]
-    constant: Vector = cost + np.bincount(row[settled], weights=share, minlength=len(rows)).astype(np.float64)
-    problem = Choices(
-        first_choice=offsets(np.bincount(owner)),
-        constant=constant,
-        first_outcome=offsets(np.bincount(row[open_], minlength=len(rows))),
-        successor=successor[open_],
-        probability=probability[open_],
-        settled=int(np.bincount(row[settled]).max(initial=0)),
-    )
-    return problem, rows
+    first, start, entered = product.moves
+    rows, first_choice = layout.sort_choices(first, kept, unknown, int(unknown.max(initial=-1)) + 1)
+    constant = np.zeros(len(rows)) if cost is None else cost[rows]
+    most = int((product.first_outcome[rows + 1] - product.first_outcome[rows]).sum()) + 1
+    first_outcome = np.empty(len(rows) + 1, dtype=np.int32)
+    successor, probability = np.empty(most, dtype=np.int32), np.empty(most)  # what is not written takes no memory
+    settled = layout.gather(
+        unsigned(rows), start, entered, product.probability, unknown, known,
+        constant, first_outcome, successor, probability,
+    )  # fmt: skip
+    count = int(first_outcome[-1])
+    return Choices(first_choice, constant, first_outcome, successor[:count], probability[:count], int(settled)), rows

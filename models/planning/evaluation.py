@@ -51,8 +51,9 @@ def attained_probability(
         return Attained(value, lower)
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
     unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
-    owner = np.arange(len(nodes), dtype=np.int32)
-    chain, _ = gather(product, steps.chosen[nodes], unknown=unknown, known=value, owner=owner, cost=0.0)
+    taken = np.zeros(len(product.action), dtype=np.bool_)
+    taken[steps.chosen[nodes]] = True
+    chain, _ = gather(product, taken, unknown=unknown, known=value)
     limit = options.max_sweeps
     change, x = np.inf, probability.estimate[nodes]
     bound = steps.upper / float(product.cost.min())  # on the steps: each costs that at least
@@ -60,7 +61,7 @@ def attained_probability(
     operator = operator_of(chain, options.device)
     change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
     if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
-        solved = Improver(chain, maximise=True).evaluate(owner)
+        solved = Improver(chain, maximise=True).evaluate(np.arange(len(nodes), dtype=np.int32))
         change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
     progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
     value[nodes] = x

@@ -1,34 +1,40 @@
 """Searches in the product: backwards from targets, and the removal of nodes with all that depends on them.
 
-Only frontiers are touched, so a pass costs time in proportion to the outcomes.
+Searches go by queues and look at every outcome a few times at most, so they cost time in proportion to the outcomes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
+from models.planning.kernels import searches
 from models.planning.options import Progress, no_progress
 from models.planning.product import Product
-from models.planning.ragged import distinct, offsets, owners, spans
+from models.planning.ragged import owners, unsigned
 
 Mask = NDArray[np.bool_]
 
-DEEP = 2_000
-"""Levels after which a search is left to a compiled one: on a long thin chain a level costs more than its nodes."""
+BUDGET = 1_000_000
+"""Outcomes that a search looks at between two reports of progress: some milliseconds."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Predecessors:
     """For each node and column, the choices with an outcome in it; for each choice, its node."""
 
+    product: Product
     first: NDArray[np.int32]  # [n + 3]
     choice: NDArray[np.int32]  # [E]
     owner: NDArray[np.int32]  # [C]
+
+    @property
+    def arrays(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.uint32]]:
+        """First places, choices and owners, as compiled loops read them."""
+        return unsigned(self.first), unsigned(self.choice), unsigned(self.owner)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,6 +43,8 @@ class Reached:
 
     distance: NDArray[np.int32]  # [n + 2]  fewest steps that may lead to a target; -1 if none do
     choice: NDArray[np.int32]  # [n + 2]  a choice that may bring a node one step closer; -1 at targets and unreached
+    entered: NDArray[np.int32]  # [n + 2]  what that choice may enter, one step closer; -1 likewise
+    order: NDArray[np.int32]  # [reached]  the nearest first, ascending within a distance
 
     @property
     def mask(self) -> Mask:
@@ -46,53 +54,47 @@ class Reached:
 
 def predecessors(product: Product) -> Predecessors:
     """The outcomes of the product, sorted by successor."""
-    shape = (len(product.action), product.nodes + 2)
-    ones = np.ones(len(product.successor), dtype=np.int8)
-    columns = sparse.csr_array((ones, product.successor, product.first_outcome), shape=shape).tocsc()
-    owner = owners(product.first_choice)
-    return Predecessors(columns.indptr.astype(np.int32), columns.indices.astype(np.int32), owner)
+    first, choice = searches.turned_round(*product.moves[1:], product.nodes + 2)
+    return Predecessors(product, first, choice, owners(product.first_choice))
 
 
-def reach(graph: Predecessors, targets: NDArray[np.int32], *, allowed: Mask | None = None) -> Reached:
-    """Search backwards from `targets` (nodes or columns) through the allowed choices (default: all)."""
+def reach(
+    graph: Predecessors,
+    targets: NDArray[np.int32],
+    *,
+    allowed: Mask | None = None,
+    progress: Progress = no_progress,
+) -> Reached:
+    """Search backwards from `targets` (nodes or columns) through the allowed choices (default: all).
+
+    Where a level has many nodes, the next one is looked for from the nodes that are left (Beamer, Asanović and
+    Patterson, "Direction-optimizing breadth-first search", SC 2012).
+    """
     size = len(graph.first) - 1
-    distance = np.full(size, -1, dtype=np.int32)
-    via = np.full(size, -1, dtype=np.int32)
-    scratch = np.empty(size, dtype=np.int32)
+    distance, choice, entered = (np.full(size, -1, dtype=np.int32) for _ in range(3))
     distance[targets] = 0
-    frontier, depth = targets, 0
-    while len(frontier):
-        depth += 1
-        if depth > DEEP:
-            return _reach_deep(graph, targets, allowed)
-        choices = graph.choice[spans(graph.first, frontier)]
-        if allowed is not None:
-            choices = choices[allowed[choices]]
-        nodes = graph.owner[choices]
-        fresh = distance[nodes] < 0
-        nodes, choices = nodes[fresh], choices[fresh]
-        distance[nodes] = depth
-        via[nodes] = choices
-        frontier = distinct(nodes, scratch)
-    return Reached(distance, via)
+    queue, ends = np.empty(size, dtype=np.int32), np.array([0, len(targets)])
+    queue[: len(targets)] = targets
+    usable = np.empty(0, dtype=np.bool_) if allowed is None else allowed
+
+    found = (queue, ends, distance, choice, entered)
+
+    def some() -> int:
+        level = distance[queue[ends[0]]] == distance[queue[ends[1] - 1]]  # a whole one and no more is in the queue
+        if level and (ends[1] - ends[0]) * searches.CROWDED > size - ends[1]:
+            return int(searches.look_for(*graph.product.moves, usable, *found))
+        return int(searches.search(*graph.arrays, usable, *found, BUDGET))
+
+    in_stretches(some, ends, progress)
+    return Reached(distance, choice, entered, searches.by_distance(distance, queue[: ends[1]]))
 
 
-def _reach_deep(graph: Predecessors, targets: NDArray[np.int32], allowed: Mask | None) -> Reached:
-    """As `reach`, over all outcomes at once."""
-    size = len(graph.first) - 1
-    successor, choice = owners(graph.first), graph.choice
-    if allowed is not None:
-        kept = allowed[choice]
-        successor, choice = successor[kept], choice[kept]
-    owner = graph.owner[choice]
-    first = offsets(np.bincount(successor, minlength=size))
-    edges = sparse.csr_array((np.ones(len(owner)), owner, first), shape=(size, size))
-    found = csgraph.dijkstra(edges, indices=targets, unweighted=True, min_only=True)
-    distance = np.where(np.isfinite(found), found, -1.0).astype(np.int32)
-    closer = (distance[successor] >= 0) & (distance[owner] == distance[successor] + 1)
-    via = np.full(size, -1, dtype=np.int32)
-    via[owner[closer]] = choice[closer]
-    return Reached(distance, via)
+def in_stretches(some: Callable[[], int], ends: NDArray[np.int64], progress: Progress) -> None:
+    """Call `some`, which returns how many outcomes it looked at, until its queue, `ends[0]` to `ends[1]`, is empty."""
+    number = 0
+    while ends[0] < ends[1]:
+        number += 1
+        progress("graph", number, 0.0, np.inf, some())
 
 
 class Pruning:
@@ -102,37 +104,38 @@ class Pruning:
     allowed choice.
     """
 
-    def __init__(self, graph: Predecessors, inside: Mask, allowed: Mask) -> None:
-        size = len(graph.first) - 1
+    def __init__(self, graph: Predecessors, inside: Mask, allowed: Mask, remaining: NDArray[np.int32]) -> None:
+        """`remaining` [n + 2] are how many choices of a node are allowed."""
         self.inside = inside  # [n + 2]
         self.allowed = allowed  # [C]
-        self._graph = graph
-        self._remaining = np.bincount(graph.owner[allowed], minlength=size).astype(np.int32)
-        self._scratch_choice = np.empty(len(allowed), dtype=np.int32)
-        self._scratch_node = np.empty(size, dtype=np.int32)
+        self._graph, self._remaining = graph, remaining
+        self._queue = np.empty(len(inside), dtype=np.int32)
+        self._forbidden = np.empty(len(allowed), dtype=np.int32)
+        self._ends = np.array([0, 0, np.count_nonzero(allowed), 0])  # see `searches.prune`
 
     def remove(self, nodes: NDArray[np.int32], progress: Progress = no_progress) -> NDArray[np.int32]:
         """Take `nodes` out and, in turn, the nodes left without a choice. Returns the choices forbidden thereby."""
-        forbidden = [np.zeros(0, dtype=np.int32)]
         self.inside[nodes] = False
-        while len(nodes):
-            choices = self._graph.choice[spans(self._graph.first, nodes)]
-            choices = distinct(choices[self.allowed[choices]], self._scratch_choice)
-            forbidden.append(choices)
-            nodes = self._forbid(choices)
-            progress("graph", len(forbidden), 0.0, np.inf, len(nodes))
-        return np.concatenate(forbidden)
+        end = self._ends[1]
+        self._queue[end : end + len(nodes)] = nodes
+        self._ends[1] += len(nodes)
+        return self._prune(progress)
 
     def forbid(self, choices: NDArray[np.int32], progress: Progress = no_progress) -> None:
         """Forbid choices that are allowed, and take out, in turn, the nodes left without one."""
-        self.remove(self._forbid(choices), progress)
+        owner = self._graph.arrays[2]
+        searches.forbid(choices, owner, self.inside, self.allowed, self._remaining, self._queue, self._ends)
+        self._prune(progress)
 
-    def _forbid(self, choices: NDArray[np.int32]) -> NDArray[np.int32]:
-        """The nodes inside that are left without a choice; they are taken out."""
-        self.allowed[choices] = False
-        touched = self._graph.owner[choices]
-        np.subtract.at(self._remaining, touched, 1)
-        empty = touched[(self._remaining[touched] == 0) & self.inside[touched]]
-        nodes = distinct(empty, self._scratch_node)
-        self.inside[nodes] = False
-        return nodes
+    def _prune(self, progress: Progress) -> NDArray[np.int32]:
+        graph, ends, before = self._graph, self._ends, self._ends[3]
+
+        def some() -> int:
+            return int(
+                searches.prune(
+                    *graph.arrays, self.inside, self.allowed, self._remaining, self._queue, ends, self._forbidden, BUDGET
+                )
+            )
+
+        in_stretches(some, ends, progress)
+        return self._forbidden[before : ends[3]]

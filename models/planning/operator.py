@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from models.planning import kernels
+from models.planning.kernels import sweeps
 from models.planning.choices import Choices, Vector
 from models.planning.errors import DeviceUnavailableError
 from models.planning.options import Device
@@ -75,8 +75,8 @@ class KernelOperator:
     def __init__(self, choices: Choices) -> None:
         self.choices = choices
         self._arrays = choices.arrays
-        self._chain = np.arange(choices.unknowns, dtype=np.int32)
-        self._policy = choices.first_choice[:-1].copy()
+        self._chain = np.arange(choices.unknowns, dtype=np.uint32)
+        self._policy = self._arrays[0][:-1].copy()
 
     def vector(self, values: Vector | float) -> Vector:
         """See `Operator.vector`."""
@@ -92,39 +92,39 @@ class KernelOperator:
 
     def narrow(self, lower: Vector, upper: Vector, sweep: int) -> float:
         """See `Operator.narrow`."""
-        return float(kernels.narrow(*self._arrays, lower, upper, self.choices.roundoff, sweep % 2 == 0))
+        return float(sweeps.narrow(*self._arrays, lower, upper, self.choices.roundoff, sweep % 2 == 0))
 
     def ascend(self, lower: Vector) -> float:
         """See `Operator.ascend`."""
         margin = self.choices.roundoff
-        rise = float(kernels.ascend(*self._arrays, lower, margin, self._policy))
+        rise = float(sweeps.ascend(*self._arrays, lower, margin, self._policy))
         for _ in range(PASSES):
-            if kernels.follow(self._policy, *self._arrays[1:], lower, margin) <= SETTLED * rise:
+            if sweeps.follow(self._policy, *self._arrays[1:], lower, margin) <= SETTLED * rise:
                 break
         return rise
 
     def cover(self, upper: Vector) -> float:
         """See `Operator.cover`."""
-        return float(kernels.cover(*self._arrays, upper, self.choices.roundoff))
+        return float(sweeps.cover(*self._arrays, upper, self.choices.roundoff))
 
     def improve(self, x: Vector) -> float:
         """See `Operator.improve`."""
-        change = float(kernels.improve(*self._arrays, x, self._policy))
+        change = float(sweeps.improve(*self._arrays, x, self._policy))
         for _ in range(PASSES):
-            if kernels.settle(self._policy, *self._arrays[1:], x, False) <= SETTLED * change:
+            if sweeps.settle(self._policy, *self._arrays[1:], x, False) <= SETTLED * change:
                 break
         return change
 
     def settle(self, x: Vector, sweep: int) -> float:
         """See `Operator.settle`."""
-        return float(kernels.settle(self._chain, *self._arrays[1:], x, sweep % 2 == 0))
+        return float(sweeps.settle(self._chain, *self._arrays[1:], x, sweep % 2 == 0))
 
     def greedy(
         self, x: Vector, *, maximise: bool, tie: float, least: float = 1.0
     ) -> tuple[NDArray[np.int32], float, float]:
         """See `Operator.greedy`."""
         policy = np.empty(self.choices.unknowns, dtype=np.int32)
-        above, below = kernels.greedy(*self._arrays, x, maximise, tie, least, policy)
+        above, below = sweeps.greedy(*self._arrays, x, maximise, tie, least, policy)
         return policy, float(above), float(below)
 
 

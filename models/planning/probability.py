@@ -26,6 +26,7 @@ from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, probability_bounds
 from models.planning.end_components import end_components
 from models.planning.graph import Predecessors
+from models.planning.kernels import layout
 from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.product import Product
@@ -91,7 +92,7 @@ def maximal_probability(
     upper = qualities.certain.astype(np.float64)
     maybe, proved = qualities.possible & ~qualities.certain, True
     if maybe.any():
-        unknown, choices = _quotient(product, graph, maybe, lower, progress)
+        unknown, choices = _quotient(product, graph, qualities, lower, progress)
         low, high, proved = iterate_intervals(choices, int(unknown[initial]), options=options, progress=progress)
         lower[maybe] = low[unknown[maybe]]
         upper[maybe] = high[unknown[maybe]]
@@ -99,17 +100,16 @@ def maximal_probability(
 
 
 def _quotient(
-    product: Product, graph: Predecessors, maybe: NDArray[np.bool_], known: Vector, progress: Progress
+    product: Product, graph: Predecessors, qualities: Qualities, known: Vector, progress: Progress
 ) -> tuple[NDArray[np.int32], Choices]:
-    """The unknown of each node (-1 where known), and their choices: an end component is one unknown."""
+    """The unknown of each node (-1 where known), nearest to acceptance first, and their choices: an end component is
+    one unknown.
+    """
+    maybe = qualities.possible & ~qualities.certain
     component, stays = end_components(product, graph, maybe, progress=progress)
-    nodes = np.flatnonzero(maybe)
-    group = np.where(component[nodes] >= 0, component[nodes], product.nodes + nodes)
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
-    unknown[nodes] = np.unique(group, return_inverse=True)[1]
-    owner = unknown[graph.owner]
-    chosen = np.flatnonzero((owner >= 0) & ~stays)
-    choices, _ = gather(product, chosen, unknown=unknown, known=known, owner=owner[chosen], cost=0.0)
+    layout.number_unknowns(qualities.order, maybe, component, unknown)
+    choices, _ = gather(product, ~stays, unknown=unknown, known=known)
     return unknown, choices
 
 

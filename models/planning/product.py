@@ -8,7 +8,7 @@ columns, not nodes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,13 @@ from numpy.typing import NDArray
 
 from models.logic import Automaton
 from models.planning.compiled import CompiledWorld
-from models.planning.ragged import offsets, spans
+from models.planning.kernels import layout
+from models.planning.ragged import unsigned
+
+_Arrays = tuple[
+    NDArray[np.int32], NDArray[np.int32], NDArray[np.float64], NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]
+]
+"""First choices, actions, costs, first outcomes, successors and probabilities."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,6 +59,11 @@ class Product:
         """The column of every node in which the formula fails whatever follows, and of invalid states."""
         return self.nodes + 1
 
+    @property
+    def moves(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.uint32]]:
+        """First choices, first outcomes and successors, as compiled loops read them."""
+        return unsigned(self.first_choice), unsigned(self.first_outcome), unsigned(self.successor)
+
     def node_of(self, memory: int, state: int) -> int:
         """The node reached by reading the label of `state` in `memory`; memory is the one before reading."""
         return int(self.node[self.next_memory[memory, state], state])
@@ -63,81 +74,64 @@ class Product:
         column = np.full(self.nodes + 2, len(kept), dtype=np.int32)
         column[kept] = np.arange(len(kept), dtype=np.int32)
         column[self.lost] = len(kept) + 1
-        choice = spans(self.first_choice, kept)
-        outcome = spans(self.first_outcome, choice)
-        return Product(
-            next_memory=self.next_memory,
-            node=column[self.node],
-            first_choice=offsets(np.diff(self.first_choice)[kept]),
-            action=self.action[choice],
-            cost=self.cost[choice],
-            first_outcome=offsets(np.diff(self.first_outcome)[choice]),
-            successor=column[self.successor[outcome]],
-            probability=self.probability[outcome],
-            marks=np.zeros(0, dtype=np.uint32),
-            meets={},
-        )
+        arrays = _copied(self, [(kept, column)])
+        return Product(self.next_memory, column[self.node], *arrays, np.zeros(0, dtype=np.uint32), {})
 
 
 def build_product(world: CompiledWorld, automaton: Automaton, letter: NDArray[np.int32]) -> Product:
     """The product over every memory and valid state, not only the reachable ones: a robot may re-enter
     anywhere. `letter` is [S], the label of each state.
     """
-    next_memory = automaton.successors[:, letter]
+    next_memory = np.take(automaton.successors, letter, axis=1)
     next_memory[:, ~world.valid] = -1
-    live = np.flatnonzero(~automaton.accepting & ~automaton.rejecting)
-    node, members = _number_nodes(world, automaton, next_memory, live)
-    everything = np.arange(world.states, dtype=np.int32)
-    wanted = sorted({pair.infinite for pair in automaton.acceptance if pair.infinite})
-    choices, actions, costs, outcomes, successors, probabilities = [], [], [], [], [], []
-    marks, meets = [], {bit: [np.zeros(0)] for bit in wanted}
-    for memory, states in zip(live, members, strict=True):
-        # What is entered from this memory, by state; an invalid state has no predecessor, so its entry is never used.
-        entered = node[next_memory[memory], everything]
-        choice = spans(world.first_choice, states)
-        whole = len(choice) == len(world.action)
-        outcome = slice(None) if whole else spans(world.first_outcome, choice)
-        choices.append(np.diff(world.first_choice)[states])
-        actions.append(world.action[choice])
-        costs.append(world.cost[choice])
-        outcomes.append(np.diff(world.first_outcome)[choice])
-        successors.append(entered[world.successor[outcome]])
-        probabilities.append(world.probability[outcome])
-        if automaton.acceptance and len(choice):
-            carried = automaton.marks[memory, letter][world.successor[outcome]]
-            start = offsets(outcomes[-1])[:-1]
-            marks.append(np.bitwise_or.reduceat(carried, start))
-            for bit in wanted:
-                meets[bit].append(np.add.reduceat(np.where(carried & bit, probabilities[-1], 0.0), start))
-    none = [np.zeros(0, dtype=np.int32)]
-    return Product(
-        next_memory=next_memory,
-        node=node,
-        first_choice=offsets(np.concatenate(choices or none)),
-        action=np.concatenate(actions or none),
-        cost=np.concatenate(costs or [np.zeros(0)]),
-        first_outcome=offsets(np.concatenate(outcomes or none)),
-        successor=np.concatenate(successors or none),
-        probability=probabilities[0] if len(probabilities) == 1 else np.concatenate(probabilities or [np.zeros(0)]),
-        marks=np.concatenate(marks or [np.zeros(0, dtype=np.uint32)]),
-        meets={bit: np.concatenate(parts) for bit, parts in meets.items()},
+    live = ~automaton.accepting & ~automaton.rejecting
+    node = np.empty((automaton.states, world.states), dtype=np.int32)
+    nodes = layout.number_nodes(next_memory, world.valid, live, (~automaton.accepting).astype(np.int32), node)
+    members = [(memory, np.flatnonzero(node[memory] < nodes).astype(np.int32)) for memory in np.flatnonzero(live)]
+    # What is entered from a memory, by state; an invalid state has no predecessor, so its entry is never used.
+    parts = [(states, node[next_memory[memory], np.arange(world.states)]) for memory, states in members]
+    arrays = _copied(world, parts)
+    return Product(next_memory, node, *arrays, *_marks(world, automaton, letter, members, len(arrays[1])))
+
+
+def _copied(source: CompiledWorld | Product, parts: Sequence[tuple[NDArray[np.int32], NDArray[np.int32]]]) -> _Arrays:
+    """The choices and outcomes of the rows of each part, one part after the other, their successors renamed by what
+    stands beside the rows.
+    """
+    first_choice = np.zeros(sum(len(rows) for rows, _ in parts) + 1, dtype=np.int32)
+    at = outcomes = 0
+    for rows, _ in parts:
+        outcomes += layout.room(rows, source.first_choice, source.first_outcome, first_choice, at)
+        at += len(rows)
+    choices = int(first_choice[-1])
+    out = (
+        np.empty(choices, dtype=np.int32),
+        np.empty(choices),
+        np.zeros(choices + 1, dtype=np.int32),
+        np.empty(outcomes, dtype=np.int32),
+        np.empty(outcomes),
     )
+    ends = np.zeros(2, dtype=np.int64)
+    first, start, successor = map(unsigned, (source.first_choice, source.first_outcome, source.successor))
+    for rows, entered in parts:
+        layout.copy(rows, entered, first, source.action, source.cost, start, successor, source.probability, ends, out)
+    return first_choice, *out
 
 
-def _number_nodes(
-    world: CompiledWorld, automaton: Automaton, next_memory: NDArray[np.int32], live: NDArray[np.intp]
-) -> tuple[NDArray[np.int32], list[NDArray[np.int32]]]:
-    """`node` of Product, and the states of each live memory's nodes, ascending."""
-    everything = np.flatnonzero(world.valid)
-    entered = np.zeros((automaton.states, world.states), dtype=np.bool_)
-    for memory in range(automaton.states):
-        entered[next_memory[memory, everything], everything] = True
-    members = [np.flatnonzero(entered[memory]).astype(np.int32) for memory in live]
-    total = sum(len(states) for states in members)
-    node = np.full((automaton.states, world.states), total + 1, dtype=np.int32)
-    node[automaton.accepting] = total
-    start = 0
-    for memory, states in zip(live, members, strict=True):
-        node[memory, states] = np.arange(start, start + len(states), dtype=np.int32)
-        start += len(states)
-    return node, members
+def _marks(
+    world: CompiledWorld,
+    automaton: Automaton,
+    letter: NDArray[np.int32],
+    members: Sequence[tuple[np.intp, NDArray[np.int32]]],
+    choices: int,
+) -> tuple[NDArray[np.uint32], Mapping[int, NDArray[np.float64]]]:
+    """`marks` and `meets` of Product."""
+    if not automaton.acceptance:
+        return np.zeros(0, dtype=np.uint32), {}
+    wanted = sorted({pair.infinite for pair in automaton.acceptance if pair.infinite})
+    marks, meets = np.zeros(choices, dtype=np.uint32), np.zeros((len(wanted), choices))
+    bits, arrays, at = np.array(wanted, dtype=np.uint32), (world.first_choice, world.first_outcome), 0
+    for memory, states in members:
+        carried = automaton.marks[memory, letter]
+        at = layout.carry(states, carried, bits, *arrays, world.successor, world.probability, at, marks, meets)
+    return marks, dict(zip(wanted, meets, strict=True))

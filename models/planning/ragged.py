@@ -8,6 +8,11 @@ from numpy.typing import NDArray
 Index = NDArray[np.int32]
 
 
+def unsigned(indices: Index) -> NDArray[np.uint32]:
+    """The same memory, for compiled loops, which then need not look for negative indices."""
+    return indices.view(np.uint32)
+
+
 def offsets(counts: NDArray[np.integer]) -> Index:
     """[n + 1] where each of `n` rows of the given lengths begins; the last entry is the end."""
     first = np.zeros(len(counts) + 1, dtype=np.int32)

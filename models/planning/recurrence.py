@@ -113,7 +113,7 @@ class _Finder:
             self._chosen[places] = choices[first]
             self._rounds += [(1.0, 1.0)] * (int(number.max()) + 1)
             return
-        problem, rows = self._problem(places, choices, self._product.meets[pair.infinite])
+        problem, rows = self._problem(places, stays, self._product.meets[pair.infinite])
         rounds, policy = shortest_rounds(problem, number, options=self._options, progress=self._progress)
         chosen = rows[policy]
         stuck = ~np.isfinite(rounds[number, 1])
@@ -122,15 +122,12 @@ class _Finder:
         self._chosen[places] = chosen
         self._rounds += [(float(least), float(most)) for least, most in rounds]
 
-    def _problem(
-        self, places: NDArray[np.int32], choices: NDArray[np.int32], meets: Vector
-    ) -> tuple[Choices, NDArray[np.int32]]:
-        """Maximise the meetings at `places` over `choices`."""
+    def _problem(self, places: NDArray[np.int32], stays: Mask, meets: Vector) -> tuple[Choices, NDArray[np.int32]]:
+        """Maximise the meetings at `places` over the choices `stays`."""
         nothing = np.zeros(self._product.nodes + 2)
         unknown = np.full(len(nothing), -1, dtype=np.int32)
         unknown[places] = np.arange(len(places), dtype=np.int32)
-        owner = unknown[self._graph.owner[choices]]
-        return gather(self._product, choices, unknown=unknown, known=nothing, owner=owner, cost=meets[choices])
+        return gather(self._product, stays, unknown=unknown, known=nothing, cost=meets)
 
     def _towards(self, places: NDArray[np.int32], choices: NDArray[np.int32], meets: Vector) -> NDArray[np.int32]:
         """Choices that meet the mark where it can be met and lead there elsewhere: for ever, if not the fastest."""

@@ -18,7 +18,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import splu
 
-from models.planning import kernels
+from models.planning.kernels import sweeps
 from models.planning.choices import Choices, Vector
 from models.planning.options import Options, Progress
 from models.planning.ragged import spans
@@ -58,7 +58,7 @@ def shortest_rounds(
     count = int(group.max()) + 1
     h, low, high = _iterate(problem, group, count, options, progress)
     policy = np.empty(problem.unknowns, dtype=np.int32)
-    kernels.greedy(*problem.arrays, h, True, TIE, 1.0, policy)
+    sweeps.greedy(*problem.arrays, h, True, TIE, 1.0, policy)
     size = np.bincount(group, minlength=count)
     for one in np.flatnonzero((high - low > PRECISION * high) & (size <= DIRECT_LIMIT)).tolist():
         progress("rounds", DIRECT_AFTER, 1.0 / float(high[one]), np.inf, int(size[one]))
@@ -66,9 +66,9 @@ def shortest_rounds(
         with suppress(RuntimeError):  # a singular system: what iteration found stays
             h[places], policy[places] = _improve(problem, places, policy[places])
     out, unused = np.empty(problem.unknowns), np.empty(count)
-    kernels.average(*problem.arrays, h, out, group, DAMPING, unused, high)
+    sweeps.average(*problem.arrays, h, out, group, DAMPING, unused, high)
     chain = problem.only(policy)
-    kernels.average(*chain.arrays, h, out, group, DAMPING, low, unused)
+    sweeps.average(*chain.arrays, h, out, group, DAMPING, low, unused)
     margin = problem.roundoff * (1.0 + float(np.abs(h).max()))
     rounds = np.stack([1.0 / np.minimum(high + margin, 1.0), _inverse(low - margin)], axis=1)
     return rounds, policy
@@ -89,7 +89,7 @@ def _iterate(
     h, out = np.zeros(problem.unknowns), np.empty(problem.unknowns)
     small = bool((np.bincount(group) <= DIRECT_LIMIT).all())
     for sweep in range(1, min(DIRECT_AFTER if small else MAX_SWEEPS, options.max_sweeps) + 1):
-        kernels.average(*problem.arrays, h, out, group, DAMPING, low, high)
+        sweeps.average(*problem.arrays, h, out, group, DAMPING, low, high)
         least = float(low.min())
         progress("rounds", sweep, 1.0 / float(high.max()), 1.0 / least if least > 0 else np.inf, problem.unknowns)
         if (high - low <= PRECISION * high).all():

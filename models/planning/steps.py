@@ -28,12 +28,13 @@ from numpy.typing import NDArray
 from models.planning.choices import Choices, Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
 from models.planning.graph import Predecessors, reach
+from models.planning.kernels import layout
 from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
 from models.planning.qualities import Qualities
-from models.planning.ragged import owners, spans
+from models.planning.ragged import owners
 
 RESIDUAL = 1e-8
 """Change in a sweep, in units of the least cost, at which iteration stops: the relative error of the expected steps."""
@@ -61,14 +62,9 @@ def conserving(product: Product, qualities: Qualities, probability: Probability,
 
     At nodes of probability one no number is involved.
     """
-    owner = owners(product.first_choice)
-    kept = qualities.certain[owner] & qualities.keeps_certain
-    maybe = np.flatnonzero((qualities.possible & ~qualities.certain)[owner]).astype(np.int32)
-    if len(maybe):
-        nothing = np.full(product.nodes + 2, -1, dtype=np.int32)
-        estimate = probability.estimate
-        worth, _ = gather(product, maybe, unknown=nothing, known=estimate, owner=owner[maybe], cost=0.0)
-        kept[maybe] = worth.constant >= estimate[owner[maybe]] - slack
+    kept = qualities.certain[owners(product.first_choice)] & qualities.keeps_certain
+    maybe = qualities.possible & ~qualities.certain
+    layout.keep(*product.moves, product.probability, maybe, probability.estimate, slack, kept)
     return kept
 
 
@@ -89,21 +85,17 @@ def fewest_steps(
     reached = reach(graph, ends, allowed=kept)
     if not reached.mask[:-2].all():
         return None
-    nodes = np.flatnonzero(qualities.possible[:-2]).astype(np.int32)
-    nodes = nodes[np.argsort(reached.distance[nodes], kind="stable")]  # a sweep carries values on from the nearest ones
+    nodes = reached.order[reached.distance[reached.order] > 0]  # a sweep carries values on from the nearest ones
     chosen = np.full(product.nodes, -1, dtype=np.int32)
     lower, upper = np.zeros(product.nodes + 2), np.zeros(product.nodes + 2)
     if not len(nodes):
         return Steps(chosen, lower, upper)
     unknown = np.full(product.nodes + 2, -1, dtype=np.int32)
     unknown[nodes] = np.arange(len(nodes), dtype=np.int32)
-    rows = spans(product.first_choice, nodes)
-    rows = rows[kept[rows]]
     none = np.zeros(product.nodes + 2)
-    owner = unknown[graph.owner[rows]]
-    choices, taken = gather(product, rows, unknown=unknown, known=none, owner=owner, cost=product.cost[rows])
-    towards = np.flatnonzero(rows == reached.choice[graph.owner[rows]]).astype(np.int32)
-    least = float(product.cost[rows].min())
+    choices, taken = gather(product, kept, unknown=unknown, known=none, cost=product.cost)
+    towards = np.flatnonzero(taken == reached.choice[graph.owner[taken]]).astype(np.int32)
+    least = float(product.cost[taken].min())
     start: Vector = reached.distance[nodes].astype(np.float64) * least
     policy, low, error = _solve(choices, start, least, towards, int(unknown[initial]), options, progress)
     chosen[nodes] = taken[policy]

@@ -1,21 +1,18 @@
 """The most probable run of a policy that satisfies the formula.
 
-A shortest path (Dijkstra, "A note on two problems in connexion with graphs", 1959) by -log p over the Markov chain
-of the policy.
+A shortest path by -log p over the Markov chain of the policy.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from models.logic import Automaton
 from models.planning.chain import Chain
+from models.planning.kernels import runs
 from models.planning.lasso import bottoms, circle
 from models.planning.policy import Policy
 
@@ -92,22 +89,6 @@ def _cheapest_path(
     """
     if satisfied[0] or not satisfied.any():
         return [0], []
-    count = len(chain.state)
-    graph: Any = sparse.csr_array((cost, chain.target, chain.first), shape=(count, count))
-    distance, before = csgraph.dijkstra(graph, indices=[0], return_predecessors=True)
-    ends = np.flatnonzero(satisfied)
-    place = int(ends[distance[0, ends].argmin()])
-    if not np.isfinite(distance[0, place]):
-        return [0], []
-    nodes, outcomes = [place], []
-    while place:
-        place = int(before[0, place])
-        outcomes.append(_outcome(chain, place, nodes[-1]))
-        nodes.append(place)
-    return nodes[::-1], outcomes[::-1]
-
-
-def _outcome(chain: Chain, node: int, following: int) -> int:
-    """The outcome by which `following` is entered from `node`."""
-    start, stop = int(chain.first[node]), int(chain.first[node + 1])
-    return start + int(np.flatnonzero(chain.target[start:stop] == following)[0])
+    path, end = runs.cheapest_path(chain.first, chain.target, cost, 0, satisfied)
+    outcomes = path[::-1]
+    return ([0], []) if end < 0 else ([0, *chain.target[outcomes].tolist()], outcomes.tolist())
