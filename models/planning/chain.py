@@ -88,41 +88,40 @@ def explore(world: World, policy: Policy, *, most: int = MOST_STATES, progress: 
 
 def _explore_listed(world: World, listed: Transitions, policy: Policy, most: int, progress: Progress) -> Chain:
     """As `explore`, where the transitions are listed and the policy tells all states apart."""
-    most = min(most, policy.places * policy.memories)
-    known = np.full((policy.memories, policy.places), -1, dtype=np.int32)
-    letter, row = policy.letter.astype(np.int32), policy.row.astype(np.int32)
-    arrays = (policy.successors, letter, row, policy.action.astype(np.int32))
+    read = (policy.successors, policy.letter.astype(np.int32), policy.row.astype(np.int32), policy.action.astype(np.int32))
     first_choice, start, successor = map(unsigned, (listed.first_choice, listed.first_outcome, listed.successor))
-    # No outcome has more entries than there are to number; pages that are not written take no memory.
-    state, memory, choice = (np.empty(known.size, dtype=np.int32) for _ in range(3))
+    arrays = (first_choice, listed.action, start, successor, listed.probability)
+    known = np.full((policy.memories, policy.places), -1, dtype=np.int32)
+    state, memory, choice = (np.empty(known.size, dtype=np.int32) for _ in range(3))  # what is not written takes none
+    first = np.empty(known.size + 1, dtype=np.int64)
     state[0] = policy.initial_state
     memory[0] = policy.after(np.array([policy.initial_state]), np.array([policy.initial_memory], dtype=np.int32))[0]
     known[memory[0], state[0]] = 0
-    ends, number = np.array([0, 1, 0]), 0
+    ends, longest = np.array([0, 1, 0]), int(np.diff(listed.first_outcome).max(initial=1))
+    targets, chances = [np.empty(0, dtype=np.int32)], [np.empty(0)]
     while ends[0] < ends[1] <= most:
-        number += 1
-        runs.follow(
-            arrays, first_choice, listed.action, start, successor,
-            known, state, memory, choice, ends, most, BUDGET,
-        )  # fmt: skip
-        progress("evaluate", number, 0.0, np.inf, int(ends[1]))
+        target, chance = np.empty(BUDGET + longest, dtype=np.int32), np.empty(BUDGET + longest)
+        count = runs.follow(read, arrays, known, state, memory, choice, first, target, chance, ends, most, BUDGET)
+        targets.append(target[:count])
+        chances.append(chance[:count])
+        progress("evaluate", len(targets) - 1, 0.0, np.inf, int(ends[1]))
     seen = int(ends[0])
-    state, memory, choice = state[:seen], memory[:seen], choice[:seen]
+    state, memory, choice, first = state[:seen], memory[:seen], choice[:seen], first[: seen + 1]
+    first[seen] = ends[2]
     if (choice == IMPOSSIBLE).any():
         place = int(np.argmax(choice == IMPOSSIBLE))
         _refuse(world, int(policy.acting(state[place], memory[place])))
-    first, target, probability = np.empty(seen + 1, dtype=np.int64), np.empty(ends[2], dtype=np.int64), np.empty(ends[2])
-    count = runs.outcomes(
-        policy.successors, letter, start, successor, listed.probability,
-        known, state, memory, choice, first, target, probability,
-    )  # fmt: skip
+    target, probability = np.concatenate(targets), np.concatenate(chances)
+    inside = target < seen
+    if not inside.all():
+        first, target, probability = np.append(0, np.cumsum(inside))[first], target[inside], probability[inside]
     acts = choice >= 0
     action = np.where(choice == -1, NOTHING, WAIT).astype(np.int64)
     action[acts] = listed.action[choice[acts]]
     cost = (action != NOTHING).astype(np.float64)
     cost[acts] = listed.cost[choice[acts]]
     whole = bool(ends[0] == ends[1])
-    return Chain(state.astype(np.int64), memory, action, cost, first, target[:count], probability[:count], whole)
+    return Chain(state.astype(np.int64), memory, action, cost, first, target.astype(np.int64), probability, whole)
 
 
 def _refuse(world: World, action: int) -> NoReturn:

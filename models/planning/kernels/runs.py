@@ -7,70 +7,61 @@ import numpy as np
 from models.planning.kernels import jit
 
 
+BATCH = 256
+"""Product states whose choices are looked up together: their reads from memory then overlap."""
+
+
 @jit
-def follow(policy, first_choice, action, first_outcome, successor, known, state, memory, choice, ends, most, budget):
+def follow(policy, world, known, state, memory, choice, first, target, chance, ends, most, budget):
     """Go on with a breadth-first search through the product states that a policy may come to; returns how many outcomes
-    it looked at.
+    it wrote.
 
     `policy`: the memory after reading a letter [Q, L], the letter of each state [S], the row of each memory [Q], -1 if
-    it is decided, and what to do by row and state [R, S], -1 for nothing, -2 to wait. `known` [Q, S] becomes the number
-    of each product state, by the memory after reading; it begins with -1. By number: `state`, `memory` and the `choice`
-    that is taken, -1 for nothing, -2 to wait, -3 where the action is not possible. `ends`: the next to look at, how
-    many are known, and how many outcomes they have.
+    it is decided, and what to do by row and state [R, S], -1 for nothing, -2 to wait. `world`: as listed, without
+    costs. `known` [Q, S] becomes the number of each product state, by the memory after reading; it begins with -1. By
+    number: `state`, `memory`, the `choice` that is taken, -1 for nothing, -2 to wait, -3 where the action is not
+    possible, and where its outcomes begin (`first`) in all that was written. `target` and `chance` are these, from
+    place 0 on in this call. `ends`: the next product state to look at, how many are known, and how many outcomes were
+    written before.
     """
     after, letter, row, taken = policy
-    head, tail, edges, looked = ends[0], ends[1], ends[2], 0
-    while head < tail and tail <= most and looked < budget:
-        here, read = state[head], memory[head]
-        one = np.int64(taken[row[read], here]) if row[read] >= 0 else np.int64(-1)
-        if one >= 0:
-            one = _choice_of(one, first_choice[here], first_choice[here + 1], action)
-        choice[head] = one
-        head += 1
-        begin, count = (first_outcome[one], first_outcome[one + 1] - first_outcome[one]) if one >= 0 else (0, one == -2)
-        looked += 1 + count
-        edges += count
-        for place in range(begin, begin + count):
-            entered = successor[place] if one >= 0 else here
-            then = after[read, letter[entered]]
-            if known[then, entered] < 0:
-                known[then, entered] = tail
-                state[tail], memory[tail] = entered, then
-                tail += 1
-    ends[0], ends[1], ends[2] = head, tail, edges
-    return looked
+    first_choice, action, first_outcome, successor, probability = world
+    head, tail, end = ends[0], ends[1], 0
+    while head < tail and tail <= most and end < budget:
+        batch = min(tail, head + BATCH)
+        for number in range(head, batch):
+            one = np.int64(taken[row[memory[number]], state[number]]) if row[memory[number]] >= 0 else np.int64(-1)
+            if one >= 0:
+                one = _choice_of(one, first_choice[state[number]], first_choice[state[number] + 1], action)
+            choice[number] = one
+        while head < batch and tail <= most and end < budget:
+            here, read, one = state[head], memory[head], choice[head]
+            first[head] = ends[2] + end
+            head += 1
+            begin = first_outcome[one] if one >= 0 else 0
+            count = first_outcome[one + 1] - begin if one >= 0 else np.int64(one == -2)
+            for place in range(begin, begin + count):
+                entered = successor[place] if one >= 0 else here
+                then = after[read, letter[entered]]
+                if known[then, entered] < 0:
+                    known[then, entered] = tail
+                    state[tail], memory[tail] = entered, then
+                    tail += 1
+                target[end] = known[then, entered]
+                chance[end] = probability[place] if one >= 0 else 1.0
+                end += 1
+    ends[0], ends[1], ends[2] = head, tail, ends[2] + end
+    return end
 
 
 @jit
 def _choice_of(act, begin, end, action):
+    if begin + act < end and action[begin + act] == act:
+        return np.int64(begin + act)
     for one in range(begin, end):
         if action[one] == act:
             return np.int64(one)
     return np.int64(-3)
-
-
-@jit
-def outcomes(after, letter, first_outcome, successor, probability, known, state, memory, choice, first, target, chance):
-    """Write the outcomes of the first n product states of `follow`, by their `choice` [n], that enter one of these."""
-    end = 0
-    for number in range(len(choice)):
-        first[number] = end
-        here, read, one = state[number], memory[number], choice[number]
-        if one == -2:
-            reached = known[after[read, letter[here]], here]
-            if reached < len(choice):
-                target[end], chance[end] = reached, 1.0
-                end += 1
-        if one < 0:
-            continue
-        for outcome in range(first_outcome[one], first_outcome[one + 1]):
-            entered = successor[outcome]
-            reached = known[after[read, letter[entered]], entered]
-            if reached < len(choice):
-                target[end], chance[end] = reached, probability[outcome]
-                end += 1
-    first[len(choice)] = end
-    return end
 
 
 @jit

@@ -159,6 +159,23 @@ def settle(policy, constant, start, successor, probability, x, backwards):
 
 
 @jit
+def advance(policy, constant, start, successor, probability, x, difference):
+    """As `settle`; writes the `difference` of each value, and returns the greatest change and the sum of all."""
+    change, total = 0.0, 0.0
+    for node in range(len(policy)):
+        choice = policy[node]
+        worth = constant[choice]
+        for outcome in range(start[choice], start[choice + 1]):
+            worth += probability[outcome] * x[successor[outcome]]
+        more = worth - x[node]
+        difference[node] = more
+        change = max(change, abs(more))
+        total += abs(more)
+        x[node] = worth
+    return change, total
+
+
+@jit
 def average(first, constant, start, successor, probability, h, out, group, damping, low, high):
     """A damped sweep of relative values from `h` to `out`; `low` and `high` become the extremes of T h - h by group."""
     low[:] = np.inf
