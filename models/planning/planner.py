@@ -140,9 +140,7 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
     )
 
 
-def _solve(
-    part: World, automaton: Automaton, start: int, settings: Options, progress: Progress
-) -> Solution | None:
+def _solve(part: World, automaton: Automaton, start: int, settings: Options, progress: Progress) -> Solution | None:
     """The best policy on all states of the part; None where its values are 0 in `start`."""
     check_size(part.size, automaton.states, settings)
     solution = dense.solve(part, automaton, start, options=settings, progress=progress)
