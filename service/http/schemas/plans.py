@@ -10,7 +10,7 @@ from models.world import EnvironmentSpec
 from service.http.schemas.common import (
     BindingOut,
     Command,
-    ContextualQueryOut,
+    ContextualQueryTree,
     EnvironmentName,
     FormulaText,
     QueryText,
@@ -39,10 +39,13 @@ class PlanOptions(Request):
 
 
 class PlanRequest(Request):
-    """What to plan: exactly one of `text`, `contextual_query`, `ltl`, and one of `environment`, `environment_spec`."""
+    """What to plan: exactly one of `text`, `contextual_query`, `query`, `ltl`, and one of `environment`,
+    `environment_spec`.
+    """
 
     text: Command | None = None
     contextual_query: QueryText | None = None
+    query: ContextualQueryTree | None = None
     ltl: FormulaText | None = None
     environment: EnvironmentName | None = None
     environment_spec: EnvironmentSpec | None = None
@@ -52,7 +55,7 @@ class PlanRequest(Request):
 
     @model_validator(mode="after")
     def _exactly_one(self) -> Self:
-        for names in (("text", "contextual_query", "ltl"), ("environment", "environment_spec")):
+        for names in (("text", "contextual_query", "query", "ltl"), ("environment", "environment_spec")):
             if sum(getattr(self, name) is not None for name in names) != 1:
                 raise ValueError(f"give exactly one of {', '.join(names)}")
         return self
@@ -126,7 +129,7 @@ class PlanResponse(BaseModel):
         "goal is the formula, or its negation where the objective is `min`."
     )
     objective: Literal["max", "min"]
-    contextual_query: ContextualQueryOut | None
+    contextual_query: ContextualQueryTree | None
     ltl: str
     explanation: str
     bindings: list[BindingOut] = Field(description="What the phrases of a command or query were taken for.")
