@@ -13,7 +13,7 @@ from models.errors import CqltlError, Place
 from models.language import Wording
 from models.logic import FormulaTooLargeError, parse
 from models.logic import to_text as formula_text
-from models.queries import Example, Template, learn, parse_query
+from models.queries import Example, Template, learn, parse_task
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
@@ -88,7 +88,7 @@ def _in_request(place: Place) -> Place:
 
 def _read_pair(query: str, ltl: str, pointer: str) -> Example:
     with at(f"{pointer}/contextual_query"):
-        read = parse_query(query)
+        read = parse_task(query)
     with at(f"{pointer}/ltl"):
         return Example(read, parse(ltl))
 

@@ -12,7 +12,14 @@ from anyio.to_thread import run_sync
 
 from models.logic import Formula, parse
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, evaluate, parse_query, resolve_grounded
+from models.queries import (
+    AmbiguousGroundingError,
+    Query,
+    evaluate,
+    evaluate_query,
+    parse_query,
+    resolve_grounded,
+)
 from models.world import Environment, State
 from service.errors import AmbiguousCommandError, NotUnderstoodError
 from service.lessons import read_template
@@ -41,10 +48,12 @@ class Translated:
 
 @dataclass(frozen=True, slots=True)
 class PlanOrder:
-    """What `/plan` is asked for: one of `text`, `query` and `ltl`; one of `environment` (a name) and `spec`."""
+    """What `/plan` is asked for: one of `text`, `query` (as text, or in parts) and `ltl`; one of `environment`, a name,
+    and `spec`.
+    """
 
     text: str | None
-    query: str | None
+    query: str | Query | None
     ltl: str | None
     environment: str | None
     spec: Mapping[str, Any] | None
@@ -88,11 +97,11 @@ def translate(
         return Translated(text, understand(services, text, world, translator=translator, candidates=candidates), world)
 
 
-def ground(services: Services, query: str, environment: str) -> tuple[Environment, Meaning]:
-    """Evaluate a contextual query against its stored template in a stored environment."""
+def ground(services: Services, query: str | Query, environment: str) -> tuple[Environment, Meaning]:
+    """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment."""
     with at("/environment"):
         world = services.environment(environment).value
-    with at("/contextual_query"):
+    with at(_pointer(query)):
         return world, _ground_query(services, query, world)
 
 
@@ -109,6 +118,7 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
         objective=order.objective,
         verify=order.verify,
         relevance=order.relevance,
+        timeout_s=order.timeout_s,
     )
     with (
         at("/state", only={"invalid-state"}),
@@ -121,11 +131,14 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
     return Planned(meaning, environment.value, answer, policy_id)
 
 
-def _ground_query(services: Services, text: str, environment: Environment) -> Meaning:
-    query = parse_query(text)
+def _ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
+    query = parse_query(said) if isinstance(said, str) else said
     with services.store.read() as transaction:
-        stored = transaction.templates.get(query.task)
-    return Meaning.of(evaluate(read_template(stored), query, environment), stored)
+        stored = {task.task: transaction.templates.get(task.task) for _, task in query.tasks}
+    templates = {task: read_template(template) for task, template in stored.items()}
+    return Meaning.of(
+        evaluate_query(query, lambda task: evaluate(templates[task.task], task, environment)), stored.values()
+    )
 
 
 def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, Meaning]:
@@ -175,7 +188,11 @@ def _source(order: PlanOrder) -> str:
     """The pointer of the member that says what to do."""
     if order.text is not None:
         return "/text"
-    return "/contextual_query" if order.query is not None else "/ltl"
+    return "/ltl" if order.query is None else _pointer(order.query)
+
+
+def _pointer(query: str | Query) -> str:
+    return "/contextual_query" if isinstance(query, str) else "/query"
 
 
 def _keep_policy(

@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from models.errors import CqltlError
-from models.queries import parse_query
+from models.queries import parse_task
 from models.world import builtin_environments
 from service.lessons import Lesson, learn_template
 from service.services import Services
@@ -43,7 +43,7 @@ async def _complete(services: Services) -> None:
     """Learn the seeds again that are still there, which adds what their templates lack and changes nothing else."""
     for pair in _read()["templates"]:
         with services.store.read() as transaction:
-            known = transaction.templates.find(parse_query(pair["contextual_query"]).task)
+            known = transaction.templates.find(parse_task(pair["contextual_query"]).task)
         if known is not None:
             with suppress(CqltlError):  # it was replaced, or its environment was: then it is not the seed any more
                 await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"]))

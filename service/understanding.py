@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -19,7 +19,7 @@ from models.language.reading import (
     read,
 )
 from models.logic import Formula
-from models.queries import Binding, ContextualQuery, GroundedTask, Template, parse_query
+from models.queries import Binding, GroundedQuery, Path, Query, Template, parse_task
 from models.world import Environment
 from service.lessons import read_template
 from service.services import Services
@@ -29,19 +29,20 @@ from service.translators import DEFAULT
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A formula; and unless it was said as a formula, the query, what its arguments were bound to, and the warnings of
-    the template.
+    """A formula; and unless it was said as a formula, the query, what its arguments were bound to (each with the path
+    of its task), and the warnings of the templates.
     """
 
     formula: Formula
-    query: ContextualQuery | None = None
-    bindings: tuple[Binding, ...] = ()
+    query: Query | None = None
+    bindings: tuple[tuple[Path, Binding], ...] = ()
     warnings: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, task: GroundedTask, stored: StoredTemplate) -> Meaning:
-        """The meaning of a query that was put into its template."""
-        return cls(task.formula, task.query, task.bindings, stored.warnings)
+    def of(cls, grounded: GroundedQuery, stored: Iterable[StoredTemplate]) -> Meaning:
+        """The meaning of a query that was put into its templates."""
+        warnings = dict.fromkeys(warning for template in stored for warning in template.warnings)
+        return cls(grounded.formula, grounded.query, grounded.bindings, tuple(warnings))
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ class Understanding:
     Without an environment a query has no meaning yet, and a formula is as the translator gave it.
     """
 
-    query: ContextualQuery | None
+    query: Query | None
     confidence: float
     meaning: Meaning | None
     refusal: CqltlError | None
@@ -78,7 +79,8 @@ def understand(
     learned = services.translators.queries(translator).translate(text, candidates=wanted)
     with services.store.read() as transaction:
         taught = _taught(transaction).translate(text, candidates=BEAM_WIDTH) if translator == DEFAULT else ()
-        templates = transaction.templates.among({found.query.task for found in (*learned, *taught)})
+        tasks = {task.task for found in (*learned, *taught) for _, task in found.query.tasks}
+        templates = transaction.templates.among(tasks)
 
     def template_of(task: str) -> Template | None:
         return read_template(templates[task]) if task in templates else None
@@ -87,7 +89,7 @@ def understand(
         read(text, taught, template_of=template_of, environment=environment),
         rank(text, learned, template_of=template_of, environment=environment),
     )
-    return tuple(_of_reading(reading, templates[reading.query.task]) for reading in readings[:candidates])
+    return tuple(_of_reading(reading, templates) for reading in readings[:candidates])
 
 
 def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
@@ -112,8 +114,9 @@ def _shared(readings: Sequence[Reading]) -> list[Reading]:
     return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]
 
 
-def _of_reading(reading: Reading, stored: StoredTemplate) -> Understanding:
-    meaning = None if reading.task is None else Meaning.of(reading.task, stored)
+def _of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:
+    stored = [templates[task.task] for _, task in reading.query.tasks]
+    meaning = None if reading.grounded is None else Meaning.of(reading.grounded, stored)
     return Understanding(reading.query, reading.confidence, meaning, reading.refusal)
 
 
@@ -128,4 +131,4 @@ def _taught(transaction: Transaction) -> TaughtTranslator:
 
 @lru_cache(maxsize=4)
 def _wordings(examples: tuple[StoredExample, ...]) -> TaughtTranslator:
-    return TaughtTranslator.of((example.text, parse_query(example.contextual_query)) for example in examples)
+    return TaughtTranslator.of((example.text, parse_task(example.contextual_query)) for example in examples)

@@ -10,7 +10,7 @@ and scaled so that all readings together stay as probable as they were.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -23,10 +23,13 @@ from models.logic import to_text as formula_text
 from models.queries import (
     AmbiguousGroundingError,
     ContextualQuery,
+    GroundedQuery,
     GroundedTask,
+    Query,
     Template,
     check_arity,
     evaluate,
+    evaluate_query,
     resolve_grounded,
 )
 from models.world import Environment
@@ -47,13 +50,13 @@ R = TypeVar("R", "Reading", "FormulaReading")
 class Reading:
     """A contextual query that a command may say.
 
-    `task` is what it means in the environment and `refusal` why it means nothing there; both are None without an
+    `grounded` is what it means in the environment and `refusal` why it means nothing there; both are None without an
     environment, unless the query has the wrong number of arguments.
     """
 
-    query: ContextualQuery
+    query: Query
     confidence: float
-    task: GroundedTask | None = None
+    grounded: GroundedQuery | None = None
     refusal: CqltlError | None = None
 
     @property
@@ -61,7 +64,7 @@ class Reading:
         """How much sense it makes in the environment; without one, as much as can be."""
         if self.refusal is None:
             weight = GROUNDED
-            candidates = [binding.candidate for binding in self.task.bindings] if self.task else []
+            candidates = [binding.candidate for _, binding in self.grounded.bindings] if self.grounded else []
         elif isinstance(self.refusal, AmbiguousGroundingError):
             weight, candidates = AMBIGUOUS, list(self.refusal.candidates)
         else:
@@ -100,7 +103,7 @@ def rank(
     punctuation, decide between homonyms that nothing else tells apart.
     """
     readings = _ordered(read(text, translations, template_of=template_of, environment=environment))
-    left_out = max((t.confidence for t in translations if template_of(t.query.task) is None), default=0.0)
+    left_out = max((t.confidence for t in translations if _templates(t.query, template_of) is None), default=0.0)
     return readings if readings and readings[0].confidence >= left_out else ()
 
 
@@ -114,9 +117,9 @@ def read(
     """As `rank`, in the order and with the confidences of the translations."""
     readings = []
     for translation in translations:
-        template = template_of(translation.query.task)
-        if template is not None:
-            readings.append(_read(text, translation, template, environment))
+        templates = _templates(translation.query, template_of)
+        if templates is not None:
+            readings.append(_read(text, translation, templates, environment))
     return tuple(readings)
 
 
@@ -143,14 +146,29 @@ def ground_query(query: ContextualQuery, template: Template, environment: Enviro
     return evaluate(template, query, environment, parts_of_speech=tags)
 
 
-def _read(text: str, translation: Translation, template: Template, environment: Environment | None) -> Reading:
+def _templates(query: Query, template_of: Callable[[str], Template | None]) -> dict[str, Template] | None:
+    """The templates of all tasks of a query, or None where one has none."""
+    found = {task.task: template_of(task.task) for _, task in query.tasks}
+    known = {task: template for task, template in found.items() if template is not None}
+    return known if len(known) == len(found) else None
+
+
+def _read(
+    text: str, translation: Translation, templates: Mapping[str, Template], environment: Environment | None
+) -> Reading:
     query, confidence = translation.query, translation.confidence
+
+    def ground(task: ContextualQuery) -> GroundedTask:
+        assert environment is not None
+        return ground_query(task, templates[task.task], environment, text=text)
+
     try:
-        check_arity(template, query)
-        task = None if environment is None else ground_query(query, template, environment, text=text)
+        for _, task in query.tasks:
+            check_arity(templates[task.task], task)
+        grounded = None if environment is None else evaluate_query(query, ground)
     except CqltlError as error:
         return Reading(query, confidence, None, error)
-    return Reading(query, confidence, task)
+    return Reading(query, confidence, grounded)
 
 
 def _resolve(formula: Formula, confidence: float, environment: Environment | None) -> FormulaReading:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from models.queries import ContextualQuery
+from models.queries import Query
 
 BEAM_WIDTH = 5
 """Readings that a translator's search keeps, and so the most candidates it gives."""
@@ -34,7 +34,7 @@ from commands may read "never pick up the sphere" as it reads "pick up the spher
 class Translation:
     """A reading of a text: the query, and the translator's probability for it, between 0 and 1."""
 
-    query: ContextualQuery
+    query: Query
     confidence: float
 
 

@@ -88,7 +88,12 @@ def explore(world: World, policy: Policy, *, most: int = MOST_STATES, progress: 
 
 def _explore_listed(world: World, listed: Transitions, policy: Policy, most: int, progress: Progress) -> Chain:
     """As `explore`, where the transitions are listed and the policy tells all states apart."""
-    read = (policy.successors, policy.letter.astype(np.int32), policy.row.astype(np.int32), policy.action.astype(np.int32))
+    read = (
+        policy.successors,
+        policy.letter.astype(np.int32),
+        policy.row.astype(np.int32),
+        policy.action.astype(np.int32),
+    )
     first_choice, start, successor = map(unsigned, (listed.first_choice, listed.first_outcome, listed.successor))
     arrays = (first_choice, listed.action, start, successor, listed.probability)
     known = np.full((policy.memories, policy.places), -1, dtype=np.int32)

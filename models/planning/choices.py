@@ -67,8 +67,8 @@ def gather(
     known: Vector,
     cost: Vector | None = None,
 ) -> tuple[Choices, NDArray[np.int32]]:
-    """The choices `kept` ([C]) of the nodes that are an unknown as a numeric problem, and the product's choice that each
-    of its choices is.
+    """The choices `kept` ([C]) of the nodes that are an unknown as a numeric problem, and the product's choice that
+    each of its choices is.
 
     `unknown` ([n + 2]) numbers the unknown of each node, -1 where `known` ([n + 2]) gives the value of the node or
     column instead; several nodes may share one unknown. `cost` ([C]) is added.

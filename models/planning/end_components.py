@@ -65,7 +65,7 @@ class _Decomposition:
         self._index[nodes] = 0
         ends = np.zeros(4, dtype=np.int64)
         for number in count(1):
-            looked = components.strong(nodes, *self._arrays, self.label, self._index, *self._scratch, ends, BUDGET)
+            looked = components.strong(nodes, *self._arrays, self.label, self._index, *self._scratch, ends, BUDGET)  # type: ignore[call-arg]
             self._progress("graph", number, 0.0, np.inf, int(looked))
             if ends[0] == len(nodes) and ends[1] == 0:
                 break

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from models.planning.choices import Vector, gather
 from models.planning.direct import DIRECT_LIMIT, Improver
 from models.planning.operator import Operator, operator_of
-from models.planning.options import Options, Progress, no_progress
+from models.planning.options import MOST_SWEEPS, Options, Progress, no_progress
 from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
 from models.planning.qualities import Qualities
@@ -54,15 +55,15 @@ def attained_probability(
     taken = np.zeros(len(product.action), dtype=np.bool_)
     taken[steps.chosen[nodes]] = True
     chain, _ = gather(product, taken, unknown=unknown, known=value)
-    limit = options.max_sweeps
     change, x = np.inf, probability.estimate[nodes]
     bound = steps.upper / float(product.cost.min())  # on the steps: each costs that at least
     longest = float(bound[nodes].max())
     operator = operator_of(chain, options.device)
-    change, x = _settle(operator, x, ERROR / longest, limit if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER)
+    most = MOST_SWEEPS if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER
+    change, x = _settle(operator, x, ERROR / longest, options.sweeps("evaluate", most=most))
     if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
         solved = Improver(chain, maximise=True).evaluate(np.arange(len(nodes), dtype=np.int32))
-        change, x = _settle(operator, x if solved is None else solved, ERROR / longest, limit)
+        change, x = _settle(operator, x if solved is None else solved, ERROR / longest, options.sweeps("evaluate"))
     progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
     value[nodes] = x
     error = (change + chain.roundoff) * bound[nodes]
@@ -75,14 +76,14 @@ def _watched(unknown: NDArray[np.int32], node: int, x: Vector) -> tuple[float, f
     return value, value
 
 
-def _settle(operator: Operator, start: Vector, small: float, sweeps: int) -> tuple[float, Vector]:
+def _settle(operator: Operator, start: Vector, small: float, sweeps: Iterable[int]) -> tuple[float, Vector]:
     """Iterate until a sweep changes nothing by more than `small` or rounding; how far one step of the chain may
     change the vector, and the vector.
     """
     x = operator.vector(start)
     floor = operator.choices.roundoff
     change = np.inf
-    for sweep in range(1, sweeps + 1):
+    for sweep in sweeps:
         change = operator.settle(x, sweep)
         if change <= max(small, floor):
             break

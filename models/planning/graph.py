@@ -133,7 +133,14 @@ class Pruning:
         def some() -> int:
             return int(
                 searches.prune(
-                    *graph.arrays, self.inside, self.allowed, self._remaining, self._queue, ends, self._forbidden, BUDGET
+                    *graph.arrays,
+                    self.inside,
+                    self.allowed,
+                    self._remaining,
+                    self._queue,
+                    ends,
+                    self._forbidden,
+                    BUDGET,
                 )
             )
 

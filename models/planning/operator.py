@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from models.planning.kernels import sweeps
 from models.planning.choices import Choices, Vector
 from models.planning.errors import DeviceUnavailableError
+from models.planning.kernels import sweeps
 from models.planning.options import Device
 
 DEVICE_FROM = 1_000_000

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
 Device = Literal["auto", "cpu", "cuda"]
 Objective = Literal["max", "min"]
 
+Stage = Literal["compile", "graph", "rounds", "probability", "steps", "evaluate"]
+
+MOST_SWEEPS = 2**62
+"""More than anything is ever swept."""
+
 MOST_BYTES = 64 * 2**30
 """The largest `max_bytes`: a model that fits has fewer than 2^31 outcomes, which are numbered in 32 bits."""
+
+
+def _never(_: Stage) -> bool:
+    return False
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +28,8 @@ class Options:
 
     `epsilon` bounds upper minus lower probability and what the policy may fall short of the lower one; values
     are computed more exactly than that, because ties between actions are decided on them. A plan that has not
-    reached `epsilon` after `max_sweeps` sweeps of one stage answers with what it reached. `device` "auto"
+    reached `epsilon` after `max_sweeps` sweeps of one stage, or when `hurry`, which is asked after every sweep, says so
+    of the stage, answers with what it reached. `device` "auto"
     takes a CUDA device for large models when there is one. `objective` "min" asks for the policy under which the
     formula is least probable. `relevance` leaves out of the world what the formula cannot depend on, where that is
     known.
@@ -31,6 +42,7 @@ class Options:
     device: Device = "auto"
     objective: Objective = "max"
     relevance: bool = True
+    hurry: Callable[[Stage], bool] = field(default=_never, compare=False)
 
     def __post_init__(self) -> None:
         if not 0 < self.epsilon < 1:
@@ -44,8 +56,12 @@ class Options:
         if self.objective not in ("max", "min"):
             raise ValueError("objective is max or min")
 
-
-Stage = Literal["compile", "graph", "rounds", "probability", "steps", "evaluate"]
+    def sweeps(self, stage: Stage, *, after: int = 0, most: int = MOST_SWEEPS) -> Iterator[int]:
+        """The numbers of the sweeps of a stage from `after` + 1 on, as many as are allowed, until `hurry` ends them."""
+        for sweep in range(after + 1, min(most, self.max_sweeps) + 1):
+            yield sweep
+            if self.hurry(stage):
+                return
 
 
 class Progress(Protocol):

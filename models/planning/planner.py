@@ -2,7 +2,7 @@
 
 formula ─► automaton ─┐
 world ─► its part that matters ─► labels ─► dense rows, where the world has them and the outcome is sure
-                                    └─────► listed transitions: product, end components, bounds, steps ─► policy
+            └─► what can be reached ─┴────► listed transitions: product, end components, bounds, steps ─► policy
 
 A solver gives the policy on all states (`dense`, `sparse`); what its runs do is then read off its Markov chain.
 """
@@ -10,6 +10,7 @@ A solver gives the policy on all states (`dense`, `sparse`); what its runs do is
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import Literal
 
 import numpy as np
@@ -17,12 +18,27 @@ import numpy as np
 from models.logic import Automaton, Dialect, Formula, Op, Unary, to_text, translate
 from models.planning import codec, dense, sparse
 from models.planning.chain import Chain, explore
-from models.planning.compiled import check_size
+from models.planning.compiled import OUTCOME_BYTES, WORKING_COPIES, check_size
+from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import Policy
 from models.planning.solution import Solution
 from models.planning.trajectory import Trajectory, most_probable_run
-from models.world import OomdpWorld, ProjectedWorld, StateError, World, relevant_part
+from models.world import (
+    OomdpWorld,
+    ProjectedWorld,
+    ReachableWorld,
+    StateError,
+    World,
+    reachable_part,
+    relevant_part,
+)
+
+MOST_REACHABLE = 1_000_000
+"""States up to which the reachable part of a world that is too large as a whole is explored: some seconds."""
+
+MOST_INDICES = 2**53
+"""State indices beyond which nothing is explored: whoever reads a policy as JSON has floating-point numbers."""
 
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 
@@ -94,14 +110,18 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
     automaton = translate(formula)
     _check_initial(world, start)
     part = _part(world, automaton, start, settings)
-    check_size(part.size, automaton.states, settings)
     if automaton.rejecting[automaton.initial]:
         return _hopeless("unsatisfiable", part, automaton, start)
     begin = part.initial if isinstance(part, ProjectedWorld) else start
-    solution = dense.solve(part, automaton, begin, options=settings, progress=progress)
-    if solution is dense.UNSURE:
-        solution = sparse.solve(part, automaton, begin, options=settings, progress=progress)
-    if not isinstance(solution, Solution):
+    try:
+        solution = _solve(part, automaton, begin, settings, progress)
+    except ModelTooLargeError:
+        smaller = _reachable(part, automaton, begin, settings, progress)
+        if smaller is None:
+            raise
+        part = smaller
+        solution = _solve(part, automaton, part.initial, settings, progress)
+    if solution is None:
         return _hopeless("unreachable", part, automaton, start)
     policy = _policy(world, part, automaton, solution, start)
     chain = explore(world, policy, progress=progress)
@@ -117,6 +137,31 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
         policy=policy,
         trajectory=most_probable_run(chain, policy, automaton),
         sizes=_sizes(part, automaton),
+    )
+
+
+def _solve(part: World, automaton: Automaton, start: int, settings: Options, progress: Progress) -> Solution | None:
+    """The best policy on all states of the part; None where its values are 0 in `start`."""
+    check_size(part.size, automaton.states, settings)
+    solution = dense.solve(part, automaton, start, options=settings, progress=progress)
+    if solution is dense.UNSURE:
+        solution = sparse.solve(part, automaton, start, options=settings, progress=progress)
+    return solution if isinstance(solution, Solution) else None
+
+
+def _reachable(
+    part: World, automaton: Automaton, start: int, settings: Options, progress: Progress
+) -> ReachableWorld | None:
+    """What can be reached of a part that is too large as a whole; None where that is too large as well."""
+    if part.size > MOST_INDICES or part.listed is not None:
+        return None
+    levels = count(1)
+    return reachable_part(
+        part,
+        start,
+        most_states=min(MOST_REACHABLE, settings.max_states // automaton.states),
+        most_outcomes=settings.max_bytes // (OUTCOME_BYTES * WORKING_COPIES),
+        tell=lambda found: progress("compile", next(levels), 0.0, np.inf, found),
     )
 
 
@@ -179,12 +224,14 @@ def _policy(world: World, part: World, automaton: Automaton, solution: Solution,
     row[live] = np.arange(len(live), dtype=np.int32)
     strides = codec.strides(world.variables)
     harmless = tuple(tuple(range(len(variable.values))) for variable in world.variables)
-    if isinstance(part, ProjectedWorld):
-        strides, harmless = part.projection.inner, part.projection.harmless
+    inner = part.whole if isinstance(part, ReachableWorld) else part
+    if isinstance(inner, ProjectedWorld):
+        strides, harmless = inner.projection.inner, inner.projection.harmless
     return Policy(
         variables=world.variables,
         strides=strides,
         harmless=harmless,
+        indices=part.states if isinstance(part, ReachableWorld) else None,
         actions=world.actions,
         formula=to_text(automaton.formula, Dialect.INFIX),
         atoms=tuple(to_text(atom, Dialect.INFIX) for atom in automaton.atoms),

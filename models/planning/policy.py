@@ -66,12 +66,14 @@ class Policy:
     Every product state has its entry, also those that the initial state never leads to, so a robot that was
     moved may carry on from where it is. Q memories, L letters, S places, R rows: the memories in which the formula is
     neither sure to hold nor sure to fail. A place is a state as far as the policy tells states apart: Σ stride · digit
-    over the variables. One with the stride 0 does not matter as long as its digit is `harmless`.
+    over the variables. One with the stride 0 does not matter as long as its digit is `harmless`. Where `indices` is not
+    None, only states with a sum in there were planned for, as no other can be reached; the place is that in `indices`.
     """
 
     variables: tuple[Variable, ...]  # the digits of a state index, the most significant first
     strides: tuple[int, ...]  # by variable, for the place
     harmless: tuple[tuple[int, ...], ...]  # by variable: the digits for which the policy was made
+    indices: NDArray[np.int64] | None  # [S] ascending; None: every place is one of its own
     actions: tuple[str, ...]
     formula: str  # infix
     atoms: tuple[str, ...]  # infix; bit i of a letter of the automaton
@@ -102,12 +104,27 @@ class Policy:
         return len(self.row)
 
     def place(self, state: NDArray[np.int64]) -> NDArray[np.int64]:
-        """The places of states of the world."""
-        if self.places == self.states:
+        """The places of states of the world; of one that was not planned for, another's (see `planned`)."""
+        found = self._sum(state)
+        if self.indices is None:
+            return found
+        return np.minimum(np.searchsorted(self.indices, found), len(self.indices) - 1)
+
+    def planned(self, state: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Whether states of the world are among those planned for."""
+        if self.indices is None:
+            return np.ones(state.shape, dtype=np.bool_)
+        known: NDArray[np.bool_] = self.indices[self.place(state)] == self._sum(state)
+        return known
+
+    def _sum(self, state: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Σ stride · digit."""
+        outer = codec.strides(self.variables)
+        if self.strides == outer:
             return state
         found = np.zeros_like(state)
-        for variable, inner, outer in zip(self.variables, self.strides, codec.strides(self.variables), strict=True):
-            found += state // outer % len(variable.values) * inner
+        for variable, inner, stride in zip(self.variables, self.strides, outer, strict=True):
+            found += state // stride % len(variable.values) * inner
         return found
 
     def reading(self, state: NDArray[np.int64]) -> NDArray[np.signedinteger]:
@@ -194,7 +211,10 @@ class Policy:
     def _check(self, index: int) -> None:
         if not 0 <= index < self.states:
             raise StateError(f"state {index} is not one of 0 to {self.states - 1}")
-        if self.letter[int(self.place(np.array([index]))[0])] == INVALID:
+        state = np.array([index])
+        if not self.planned(state)[0]:
+            raise StateError("the plan was made for what can be reached from where it began; this cannot: plan again")
+        if self.letter[int(self.place(state)[0])] == INVALID:
             raise StateError(f"the world does not allow this state: {self.decode(index)}")
         for variable, outer, allowed in zip(self.variables, codec.strides(self.variables), self.harmless, strict=True):
             digit = index // outer % len(variable.values)

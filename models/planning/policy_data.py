@@ -2,8 +2,8 @@
 
 Bytes: the magic `cqltl\\0p2`, the length of the header (4 bytes, little-endian), the header (JSON, UTF-8,
 keys sorted), then one zlib stream of the arrays `letter` ([places]), `action`, `probability` and `expected_steps`
-([rows, places]), each little-endian, row by row, of the `kinds` that the header says. No clock, host or library
-version goes in.
+([rows, places]) and, if the header has a kind for it, `indices` ([places]), each little-endian, row by row, of the
+`kinds` that the header says. No clock, host or library version goes in.
 
 JSON: see `to_json`.
 """
@@ -36,7 +36,8 @@ def to_bytes(policy: Policy) -> bytes:
 
 
 def _arrays(policy: Policy) -> tuple[NDArray[Any], ...]:
-    return policy.letter, policy.action, policy.probability, policy.expected_steps
+    arrays = (policy.letter, policy.action, policy.probability, policy.expected_steps)
+    return arrays if policy.indices is None else (*arrays, policy.indices)
 
 
 def _little(array: NDArray[Any]) -> NDArray[Any]:
@@ -54,13 +55,14 @@ def from_bytes(data: bytes) -> Policy:
         variables = tuple(Variable(v["object"], v["attribute"], tuple(v["values"])) for v in header["variables"])
         automaton = header["automaton"]
         row = np.array(automaton["row"], dtype=np.int32)
-        letter, action, probability, steps = _read_arrays(
+        letter, action, probability, steps, *indices = _read_arrays(
             data[end:], header["kinds"], places=header["places"], rows=int(row.max(initial=-1)) + 1
         )
         return Policy(
             variables=variables,
             strides=tuple(v["stride"] for v in header["variables"]),
             harmless=tuple(tuple(v["harmless"]) for v in header["variables"]),
+            indices=indices[0] if indices else None,
             actions=tuple(header["actions"]),
             formula=header["formula"],
             atoms=tuple(header["atoms"]),
@@ -81,7 +83,7 @@ def from_bytes(data: bytes) -> Policy:
 
 def _read_arrays(body: bytes, names: list[str], *, places: int, rows: int) -> list[NDArray[Any]]:
     kinds = [f"<{name}" for name in names]
-    shapes = [(places,), (rows, places), (rows, places), (rows, places)]
+    shapes = [(places,), (rows, places), (rows, places), (rows, places), (places,)][: len(kinds)]
     sizes = [int(np.dtype(kind).itemsize * np.prod(shape)) for kind, shape in zip(kinds, shapes, strict=True)]
     stream = zlib.decompressobj()
     raw = stream.decompress(body, sum(sizes) + 1)
@@ -125,8 +127,10 @@ def _header(policy: Policy) -> dict[str, Any]:
 def to_json(policy: Policy) -> dict[str, Any]:
     """The whole policy as JSON values.
 
-    `place = Σ stride[v] · (position of the state's value in variables[v].values)`; a variable with the stride 0 does
-    not matter as long as that position is in its `harmless` (otherwise: plan again). `letter[place]` is what is read
+    `place = Σ stride[v] · (position of the state's value in variables[v].values)`; where `indices` is not null, the
+    place is instead where that sum stands in `indices`, which is ascending (if it does not: the state cannot be reached
+    from where the plan began; plan again). A variable with the stride 0 does not matter as long as that position is in
+    its `harmless` (otherwise: plan again). `letter[place]` is what is read
     there (bit i: `atoms[i]` holds; -1: the state is invalid), and `after = automaton.successors[memory][letter]` the
     memory to use at the next state (start with `initial.memory`). Where `automaton.row[after]` is -1 the outcome is
     decided: the formula holds where `automaton.accepted[after]` is 1, else it cannot any more. Otherwise `entry =
@@ -142,6 +146,7 @@ def to_json(policy: Policy) -> dict[str, Any]:
     return {
         **header,
         "memories": policy.memories,
+        "indices": None if policy.indices is None else policy.indices.tolist(),
         "letter": policy.letter.tolist(),
         "action": policy.action.ravel().tolist(),
         "probability": np.round(policy.probability, 9).ravel().tolist(),

@@ -86,7 +86,7 @@ def maximal_probability(
     """Bound the maximal probability of acceptance from every node; `initial` is the one that progress
     reports.
 
-    The gap is at most `options.epsilon` everywhere unless `options.max_sweeps` came first.
+    The gap is at most `options.epsilon` everywhere unless the sweeps ended first.
     """
     lower = qualities.certain.astype(np.float64)
     upper = qualities.certain.astype(np.float64)
@@ -130,16 +130,17 @@ def iterate_intervals(
             low, high = (1.0, 1.0) if known else (operator.at(lower, watched), operator.at(upper, watched))
             progress("probability", sweep, low, high, choices.unknowns)
 
-    sweeps, rise = 0, np.inf
-    for sweeps in range(1, options.max_sweeps + 1):
+    sweeps, cut = 0, False
+    for sweeps in options.sweeps("probability"):
         rise = operator.ascend(lower)
         tell(sweeps)
         if rise <= RISE:
             break
         if sweeps == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
             break
+    else:
+        cut = True
     proved = _prove(operator, lower, options.epsilon, partial(tell, sweeps))
-    cut = sweeps == options.max_sweeps and rise > RISE
     if proved is None and not cut and choices.unknowns <= DIRECT_LIMIT:
         lower, upper = _solve_directly(operator, lower, upper, partial(tell, sweeps))
     if proved is not None:
@@ -169,7 +170,7 @@ def _close(
 ) -> tuple[Vector, Vector]:
     """Both bounds by interval iteration, until they are `options.epsilon` apart or no sweep brings them closer."""
     gap = 1.0
-    for sweep in range(done + 1, options.max_sweeps + 1):
+    for sweep in options.sweeps("probability", after=done):
         previous, gap = gap, operator.narrow(lower, upper, sweep)
         tell(sweep)
         if gap <= min(PRECISION, options.epsilon):

@@ -18,8 +18,8 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import splu
 
-from models.planning.kernels import sweeps
 from models.planning.choices import Choices, Vector
+from models.planning.kernels import sweeps
 from models.planning.options import Options, Progress
 from models.planning.ragged import spans
 
@@ -88,7 +88,7 @@ def _iterate(
     low, high = np.empty(count), np.empty(count)
     h, out = np.zeros(problem.unknowns), np.empty(problem.unknowns)
     small = bool((np.bincount(group) <= DIRECT_LIMIT).all())
-    for sweep in range(1, min(DIRECT_AFTER if small else MAX_SWEEPS, options.max_sweeps) + 1):
+    for sweep in options.sweeps("rounds", most=DIRECT_AFTER if small else MAX_SWEEPS):
         sweeps.average(*problem.arrays, h, out, group, DAMPING, low, high)
         least = float(low.min())
         progress("rounds", sweep, 1.0 / float(high.max()), 1.0 / least if least > 0 else np.inf, problem.unknowns)

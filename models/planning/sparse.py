@@ -112,7 +112,7 @@ def _optimise(
         shortfall = float((probability.lower - attained.lower).max())
         if shortfall < least:
             best, least = (steps, attained), shortfall
-        if shortfall <= options.epsilon:
+        if shortfall <= options.epsilon or options.hurry("evaluate"):
             break
     if best is None:
         raise AssertionError("the choices of maximal probability always decide the outcome")

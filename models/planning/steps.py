@@ -128,7 +128,7 @@ def _solve(
             upper = value / (1.0 - change) if change < 1.0 else np.inf
             progress("steps", sweep, value / (1.0 + change), upper, choices.unknowns)
 
-    for sweep in range(1, options.max_sweeps + 1):
+    for sweep in options.sweeps("steps"):
         change = operator.improve(x) / least
         tell(sweep, change)
         if change <= residual:

@@ -6,7 +6,8 @@ CqltlError
 ├── UnusedParameterError              an argument names nothing the formula mentions
 ├── InconsistentExamplesError         the examples of one task have no template in common
 ├── ArityMismatchError                a query has more or fewer arguments than its template
-└── AmbiguousGroundingError           a phrase fits several objects
+├── AmbiguousGroundingError           a phrase fits several objects
+└── CompositionError                  an operator has no meaning for its operands
 """
 
 from __future__ import annotations
@@ -78,3 +79,9 @@ class AmbiguousGroundingError(CqltlError):
         symbols = [candidate.symbol for candidate in self.candidates]
         names = [symbol.name for symbol in symbols]
         return tuple(s.name if names.count(s.name) == 1 else f"{s.kind}.{s.name}" for s in symbols)
+
+
+class CompositionError(CqltlError):
+    """An operator of a composed query has no meaning for its operands."""
+
+    slug = "impossible-composition"

@@ -17,6 +17,7 @@ from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.oomdp import OomdpWorld
+from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import ProjectedWorld, Projection, relevant_part
 from models.world.resolution import atom_symbols, distinct_name, resolve
 from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
@@ -45,6 +46,7 @@ __all__ = [
     "ProjectedWorld",
     "Projection",
     "Range",
+    "ReachableWorld",
     "State",
     "StateError",
     "Symbol",
@@ -63,6 +65,7 @@ __all__ = [
     "ground",
     "load_environment",
     "navigation_spec",
+    "reachable_part",
     "relevant_part",
     "resolve",
     "suggest",

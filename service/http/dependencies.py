@@ -49,6 +49,7 @@ BODY = ("malformed-json", "body-too-large", "unsupported-media-type", "validatio
 GROUNDING = (
     "query-syntax",
     "arity-mismatch",
+    "impossible-composition",
     "unknown-object",
     "unknown-proposition",
     "type-mismatch",

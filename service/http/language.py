@@ -18,7 +18,7 @@ from service.http.schemas import (
     TranslateRequest,
     TranslateResponse,
 )
-from service.http.views import bindings_out, location, query_out, template_out, translated_out
+from service.http.views import bindings_out, location, query_in, query_out, template_out, translated_out
 from service.lessons import Lesson, learn_template
 from service.pipeline import ground, translate
 
@@ -116,7 +116,9 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
 )
 async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
     """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
-    environment, meaning = await run_sync(ground, services, body.contextual_query, body.environment)
+    query = body.contextual_query if body.query is None else query_in(body.query)
+    assert query is not None
+    environment, meaning = await run_sync(ground, services, query, body.environment)
     assert meaning.query is not None
     return GroundResponse(
         contextual_query=query_out(meaning.query),

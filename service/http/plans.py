@@ -22,7 +22,7 @@ from service.http.schemas import (
     TrajectoryStep,
     VerifiedOut,
 )
-from service.http.views import bindings_out, environment_data, query_out
+from service.http.views import bindings_out, environment_data, query_in, query_out
 from service.pipeline import Planned, PlanOrder, plan
 
 router = APIRouter(tags=["planning"])
@@ -56,7 +56,7 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
     spec = body.environment_spec
     order = PlanOrder(
         text=body.text,
-        query=body.contextual_query,
+        query=body.contextual_query if body.query is None else query_in(body.query),
         ltl=body.ltl,
         environment=body.environment,
         spec=None if spec is None else environment_data(spec),

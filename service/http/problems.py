@@ -41,6 +41,7 @@ STATUS: dict[str, int] = {
     "formula-too-large": 422,
     "query-syntax": 422,
     "arity-mismatch": 422,
+    "impossible-composition": 422,
     "unknown-proposition": 422,
     "unknown-object": 422,
     "type-mismatch": 422,

@@ -8,13 +8,13 @@ from urllib.parse import quote
 
 from models.errors import Place
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, ContextualQuery
+from models.queries import AmbiguousGroundingError, Composition, ContextualQuery, Operator, Query, pointer_of
 from models.world import Environment, EnvironmentSpec, explain
 from service.http.problems import ErrorPlace
 from service.http.schemas import (
     BindingOut,
     CandidateOut,
-    ContextualQueryOut,
+    ContextualQueryTree,
     PairOut,
     ParameterOut,
     QuestionOut,
@@ -22,6 +22,7 @@ from service.http.schemas import (
     TranslateResponse,
 )
 from service.pipeline import Translated
+from service.places import at
 from service.store import StoredTemplate
 from service.understanding import Meaning, Understanding
 
@@ -36,22 +37,36 @@ def location(*parts: str) -> str:
     return "".join(f"/{quote(part, safe='')}" for part in parts)
 
 
-def query_out(query: ContextualQuery) -> ContextualQueryOut:
-    """A contextual query."""
-    return ContextualQueryOut(text=str(query), task=query.task, arguments=list(query.arguments))
+def query_out(query: Query) -> ContextualQueryTree:
+    """A contextual query in parts."""
+    if isinstance(query, ContextualQuery):
+        return ContextualQueryTree(text=str(query), task=query.task, arguments=list(query.arguments))
+    operands = [query_out(operand) for operand in query.operands]
+    return ContextualQueryTree(text=str(query), operator=query.operator.value, operands=operands)
+
+
+def query_in(tree: ContextualQueryTree, pointer: str = "/query") -> Query:
+    """The query that was sent in parts, at a pointer; raises QuerySyntaxError with the part that is wrong."""
+    operands = tuple(query_in(part, f"{pointer}/operands/{place}") for place, part in enumerate(tree.operands))
+    with at(pointer):
+        if tree.operator is None:
+            assert tree.task is not None
+            return ContextualQuery(tree.task, tuple(tree.arguments))
+        return Composition(Operator(tree.operator), operands)
 
 
 def bindings_out(meaning: Meaning) -> list[BindingOut]:
     """The bindings of a meaning that comes from a contextual query; none of a formula."""
     return [
         BindingOut(
+            part=pointer_of(path),
             argument=binding.position,
             phrase=binding.phrase,
             name=binding.candidate.symbol.name,
             kind=binding.candidate.symbol.kind,
             reason=binding.candidate.reason,
         )
-        for binding in meaning.bindings
+        for path, binding in meaning.bindings
     ]
 
 

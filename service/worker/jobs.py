@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -20,6 +21,8 @@ Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 NamedState = dict[str, dict[str, str]]
 """object -> attribute -> value."""
 
+SHARES = {"rounds": 0.3, "probability": 0.5, "steps": 0.7, "evaluate": 0.85}
+"""Shares of the time for a plan at which the stages end that sweep; the rest is for the policy."""
 MAX_STEPS = 1_000
 """Most steps of a trajectory in an answer."""
 
@@ -39,6 +42,7 @@ class PlanJob:
     objective: Objective
     verify: bool
     relevance: bool
+    timeout_s: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +99,13 @@ def warm_logic() -> None:
 
 
 def run_plan(job: PlanJob) -> PlanAnswer:
-    """Compile, build the product, and run value iteration; check the policy if that is asked for."""
+    """Compile, build the product, and run value iteration; check the policy if that is asked for.
+
+    Each stage stops sweeping after its share of the time, so that there is an answer before the time is up.
+    """
     from models.planning import Options, plan, to_bytes
+
+    started = time.monotonic()
 
     world = read_world(job.environment)
     initial = world.initial if job.state is None else world.encode(job.state)
@@ -106,6 +115,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         device=job.device,
         objective=job.objective,
         relevance=job.relevance,
+        hurry=lambda stage: time.monotonic() - started > SHARES.get(stage, 1.0) * job.timeout_s,
     )
     found = plan(world, job.formula, initial=initial, options=options)
     run = found.trajectory

@@ -35,11 +35,11 @@ def ranked(*readings, text="", environment=TOYS):
 def test_what_makes_sense_comes_first():
     first, second = ranked(("navigate_one(sphere)", 0.6), ("move_to(sphere)", 0.3))
     assert str(first.query) == "move_to(sphere)"
-    assert to_text(first.task.formula) == "F near(robot, sphere)"
+    assert to_text(first.grounded.formula) == "F near(robot, sphere)"
     total = 0.6 * SENSELESS + 0.3 * GROUNDED
     assert first.confidence == pytest.approx(0.9 * 0.3 * GROUNDED / total)
     assert second.confidence == pytest.approx(0.9 * 0.6 * SENSELESS / total)
-    assert second.task is None
+    assert second.grounded is None
     assert second.refusal.slug == "type-mismatch"
 
 
@@ -76,7 +76,7 @@ def test_weights():
 
 def test_without_an_environment_nothing_moves():
     readings = ranked(("navigate_one(sphere)", 0.6), ("move_to(sphere)", 0.3), environment=None)
-    assert [(str(r.query), r.confidence, r.task, r.refusal) for r in readings] == [
+    assert [(str(r.query), r.confidence, r.grounded, r.refusal) for r in readings] == [
         ("navigate_one(sphere)", pytest.approx(0.6), None, None),
         ("move_to(sphere)", pytest.approx(0.3), None, None),
     ]
@@ -137,8 +137,8 @@ def talks():
 def test_parts_of_speech_do_not_depend_on_case_and_punctuation(talks, text, meant):
     template = learn([Example(parse_query("talk(ball)"), parse("F about(ball)"))], talks)
     (reading,) = rank(text, said(("talk(orange)", 0.9)), template_of={"talk": template}.get, environment=talks)
-    assert reading.task is not None, reading.refusal
-    assert to_text(reading.task.formula) == f'F about("{meant}")'
+    assert reading.grounded is not None, reading.refusal
+    assert to_text(reading.grounded.formula) == f'F about("{meant}")'
 
 
 def test_a_homonym_outside_the_text_stays_in_doubt(talks):

@@ -88,3 +88,22 @@ def test_sizes_are_those_of_world_and_automaton() -> None:
 def test_options_out_of_range_are_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(ValueError, match=r".+"):
         Options(**wrong)  # type: ignore[arg-type]
+
+
+def test_a_hurried_plan_answers_with_bounds_that_hold() -> None:
+    """A walk that wins or loses at its ends mixes far too slowly for a few sweeps; the true value is 1/2."""
+    size = 4_001  # more than are solved directly
+    moves = {s: {"go": {s - 1: 0.5, s + 1: 0.5}} for s in range(1, size - 1)}
+    world = ArrayWorld(size, moves, {"a": frozenset({size - 1})})
+    asked: list[str] = []
+
+    def hurry(stage: str) -> bool:
+        asked.append(stage)
+        return asked.count(stage) > 3
+
+    result = plan(world, parse("F a"), initial=size // 2, options=Options(hurry=hurry))
+    assert result.outcome == "solved"
+    assert result.lower <= 0.5 <= result.upper
+    assert result.upper - result.lower > 0.1
+    assert {"probability", "steps"} <= set(asked)
+    assert len(asked) < 20

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import heapq
 import random
+from dataclasses import replace
 from itertools import pairwise
 from math import prod
 
 import pytest
 
-from models.logic import parse
-from models.planning import Options, Policy, Trajectory, plan
+from models.logic import parse, translate
+from models.planning import Policy, Trajectory, plan
 from models.planning import trajectory as module
+from models.planning.chain import explore
+from models.planning.trajectory import most_probable_run
 from models.world import World, compile_world, load_environment, toys_spec
 from tests.planning import brute
 from tests.planning.doubles import ArrayWorld, Transitions, random_world
@@ -80,17 +83,15 @@ def test_a_run_is_cut_at_the_limit(monkeypatch: pytest.MonkeyPatch, longest: int
     assert (found.complete, found.probability) == (complete, 0.5 ** (len(found.steps) - 1))
 
 
-def test_a_plan_cut_short_may_have_no_run_to_show() -> None:
-    # One sweep tells nothing, so that every choice seems tied, and the trap is nearest.
-    moves = {0: {"fall": {4: 0.99, 1: 0.01}, "walk": {1: 0.9, 4: 0.1}}}
-    moves |= {1: {"trip": {4: 1.0}, "walk": {2: 0.9, 4: 0.1}}, 2: {"trip": {4: 1.0}, "walk": {3: 0.9, 4: 0.1}}}
-    result = plan(
-        ArrayWorld(5, moves, {"a": frozenset({3})}), parse("F a"), options=Options(max_sweeps=1, epsilon=0.9999)
-    )
-    found = result.trajectory
+def test_a_policy_that_never_succeeds_has_no_run_to_show() -> None:
+    """As of a plan that was cut short: the trap is nearest."""
+    world = ArrayWorld(3, {0: {"fall": {2: 1.0}, "walk": {1: 0.9, 2: 0.1}}}, {"a": frozenset({1})})
+    result = plan(world, parse("F a"))
     assert result.policy is not None
-    assert result.policy.step(0, result.initial_memory).probability == 0
-    assert found is not None
+    fall = result.policy.action.copy()
+    fall[:, 0] = world.actions.index("fall")
+    policy = replace(result.policy, action=fall)
+    found = most_probable_run(explore(world, policy), policy, translate(parse("F a")))
     assert (states(found), found.complete, found.probability) == ([0], False, 1.0)
 
 

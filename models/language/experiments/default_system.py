@@ -22,7 +22,7 @@ from models.language.spans import (
 )
 from models.language.spans.training import Settings, train
 from models.language.translation import BEAM_WIDTH, Translation, Translator
-from models.queries import Template
+from models.queries import ContextualQuery, Query, Template
 from models.world import Environment
 
 NAME = "default"
@@ -79,11 +79,16 @@ class DefaultSystem:
             return Answer()
         readings = rank(text, translations, template_of=self.templates.get, environment=environment)
         if not readings:
-            return Answer(translations[0].query, refusal=NO_TEMPLATE, confidence=translations[0].confidence)
+            return Answer(_task(translations[0].query), refusal=NO_TEMPLATE, confidence=translations[0].confidence)
         best = readings[0]
-        formula = None if best.task is None else best.task.formula
+        formula = None if best.grounded is None else best.grounded.formula
         refusal = None if best.refusal is None else best.refusal.slug
-        return Answer(best.query, formula, refusal, best.confidence)
+        return Answer(_task(best.query), formula, refusal, best.confidence)
+
+
+def _task(query: Query) -> ContextualQuery | None:
+    """A query of one task; the paper's commands say no other."""
+    return query if isinstance(query, ContextualQuery) else None
 
 
 def trained_system(seed: int, settings: Settings, runs: Path, done: Callable[[str], None]) -> DefaultSystem:

@@ -4,135 +4,173 @@ from __future__ import annotations
 
 import numpy as np
 
+from models.planning.dense.guards import note, restrict
 from models.planning.kernels import jit
+
+EFFECT, BEGIN, END, WIDTH, STRIDE = range(5)
+"""What an entry consists of: see `models.planning.dense.compressed.Rows`."""
 
 
 @jit
 def compress(tables, effects, n, rows, start):
-    """The entries of `rows` rows of `n` states, the first of which is row `start`, and the parts in which states are
-    valid.
+    """The entries of `rows` rows of `n` states, the first of which is row `start`, and which of their states are valid.
 
-    Returns `first_entry` [rows + 1], `effect`, `begin`, `end` (by entry), and `valid` [rows * n].
+    Returns `first_entry` [rows + 1], the entries [5, ..], and `valid` [rows * n].
     """
-    variables = len(tables.radix)
     actions = len(tables.scope_inner)
-    digits = np.zeros(variables, dtype=np.int64)
-    rest = start
-    for v in range(variables - 1, -1, -1):
-        digits[v] = rest % tables.radix[v]
-        rest //= tables.radix[v]
-    first = np.zeros(rows + 1, dtype=np.int64)
-    capacity = max(16, rows * 4)
-    effect = np.empty(capacity, dtype=np.int32)
-    begin = np.empty(capacity, dtype=np.int32)
-    end = np.empty(capacity, dtype=np.int32)
-    valid = np.zeros(rows * n, dtype=np.bool_)
-    allowed = np.empty(n, dtype=np.bool_)
-    mask = np.empty(n, dtype=np.bool_)
-    acting = np.empty(n, dtype=np.bool_)
+    digits = _digits(tables.radix, start)
+    total = np.zeros(len(tables.low), dtype=np.int64)
+    place = np.zeros(len(tables.inner), dtype=np.int64)
+    stale = np.ones(actions + 1, dtype=np.bool_)
+    mask = np.zeros((actions + 1, n), dtype=np.bool_)  # of group 0 the valid states, of the others where they can act
+    known = np.zeros((actions + 1, 3), dtype=np.int64)  # first entry, last, and base of the effects when last made
     sums = np.empty(n, dtype=np.int32)
+    latest = np.full(len(effects.action), -1, dtype=np.int64)
+    first = np.zeros(rows + 1, dtype=np.int64)
+    valid = np.zeros(rows * n, dtype=np.bool_)
+    entries = np.empty((5, max(16, rows * 4)), dtype=np.int32)
     stay = len(effects.action) - 1
+    same = np.zeros(n, dtype=np.int32)
     count = 0
     for row in range(rows):
         if row > 0:
-            v = variables - 1
-            while v >= 0:
-                digits[v] += 1
-                if digits[v] < tables.radix[v]:
-                    break
-                digits[v] = 0
-                v -= 1
-        allowed[:] = True
-        if holds(tables, 0, digits, n, allowed, sums):
-            valid[row * n : (row + 1) * n] = allowed
-            acting[:] = False
-            if count + (actions + 2) * n > capacity:
-                capacity = 2 * capacity + (actions + 2) * n
-                effect, begin, end = _grown(effect, capacity), _grown(begin, capacity), _grown(end, capacity)
-            for action in range(actions):
-                mask[:] = allowed
-                if not holds(tables, action + 1, digits, n, mask, sums):
-                    continue
-                base = tables.first_effect[action]
-                for place in range(tables.scope[action], tables.scope[action + 1]):
-                    base += tables.scope_multiplier[place] * digits[tables.scope_variable[place]]
-                each = tables.scope_inner[action]
-                last = -1
-                for j in range(n):
-                    if mask[j]:
-                        acting[j] = True
-                        one = base + tables.place_effect[action, j] if each else base
-                        if last == j and effect[count - 1] == one:
-                            end[count - 1] = j + 1
-                        else:
-                            effect[count], begin[count], end[count] = one, j, j + 1
-                            count += 1
-                        last = j + 1
-            last = -1
-            for j in range(n):
-                if allowed[j] and not acting[j]:
-                    if last == j:
-                        end[count - 1] = j + 1
-                    else:
-                        effect[count], begin[count], end[count] = stay, j, j + 1
-                        count += 1
-                    last = j + 1
+            _advance(digits, tables.radix)
         first[row + 1] = count
-    return first, effect[:count].copy(), begin[:count].copy(), end[:count].copy(), valid
+        if not note(tables, 0, digits, total, place, stale):
+            continue
+        if stale[0]:
+            mask[0] = True
+            restrict(tables, 0, total, place, mask[0], sums)
+            stale[:] = True
+            stale[0] = False
+        if not mask[0].any():
+            continue
+        valid[row * n : (row + 1) * n] = mask[0]
+        if count + (actions + 1) * n > entries.shape[1]:
+            entries = _grown(entries, 2 * entries.shape[1] + (actions + 1) * n)
+        idle = mask[0].copy()
+        for action in range(actions):
+            group = action + 1
+            if not note(tables, group, digits, total, place, stale):
+                continue
+            base = tables.first_effect[action]
+            for one in range(tables.scope[action], tables.scope[action + 1]):
+                base += tables.scope_multiplier[one] * digits[tables.scope_variable[one]]
+            begin = count
+            if stale[group]:
+                mask[group] = mask[0]
+                restrict(tables, group, total, place, mask[group], sums)
+                count = _cover(mask[group], mask[0], tables.place_effect[action], base, entries, count, latest)
+                stale[group] = False
+            else:
+                count = _repeat(entries, known[group], base, count)
+            known[group, 0], known[group, 1], known[group, 2] = begin, count, base
+            for j in range(np.uintp(n)):
+                idle[j] = idle[j] & ~mask[group, j]
+        if idle.any():
+            count = _cover(idle, mask[0], same, stay, entries, count, latest)
+        first[row + 1] = count
+    return first, entries[:, :count].copy(), valid
 
 
 @jit
-def _grown(array, capacity):
-    larger = np.empty(capacity, dtype=array.dtype)
-    larger[: len(array)] = array
+def _digits(radix, number):
+    digits = np.zeros(len(radix), dtype=np.int64)
+    for v in range(len(radix) - 1, -1, -1):
+        digits[v] = number % radix[v]
+        number //= radix[v]
+    return digits
+
+
+@jit
+def _advance(digits, radix):
+    """The digits of the number that comes next."""
+    v = len(radix) - 1
+    while v >= 0:
+        digits[v] += 1
+        if digits[v] < radix[v]:
+            return
+        digits[v] = 0
+        v -= 1
+
+
+@jit
+def _grown(entries, capacity):
+    larger = np.empty((5, capacity), dtype=entries.dtype)
+    larger[:, : entries.shape[1]] = entries
     return larger
 
 
 @jit
-def holds(tables, group, digits, n, mask, sums):
-    """Take out of `mask` the states of a row in which some range of the group does not hold; whether any is left."""
-    for one in range(tables.group[group], tables.group[group + 1]):
-        total = 0
-        table = tables.table[one]
-        stop = tables.table[one + 1]
-        while table < stop and not tables.inner[table]:
-            total += tables.data[_place(tables, table, digits)]
-            table += 1
-        low, high = np.int32(tables.low[one] - total), np.int32(tables.high[one] - total)
-        if table == stop:
-            if low > 0 or high < 0:
+def _repeat(entries, known, base, count):
+    """Append entries that were made before, with effects counted from another base; returns how many there are."""
+    for entry in range(known[0], known[1]):
+        entries[EFFECT, count] = entries[EFFECT, entry] + base - known[2]
+        for part in range(BEGIN, STRIDE + 1):
+            entries[part, count] = entries[part, entry]
+        count += 1
+    return count
+
+
+@jit
+def _cover(mask, valid, effect, base, entries, count, latest):
+    """Append entries for the states of `mask`, whose effects are base + `effect`; returns how many there are.
+
+    A run goes on over states that are not valid, as nobody asks what is possible there; there is always a state of the
+    mask after them, so that no index leaves the world. `latest` has the last entry of each effect.
+    """
+    first = count
+    begin, end = -1, -1
+    for j in range(len(mask)):
+        if mask[j] and begin >= 0 and effect[j] == effect[begin]:
+            end = j + 1
+        elif valid[j]:
+            if begin >= 0:
+                count = _add(entries, count, first, latest, base + effect[begin], begin, end, valid)
+            begin = j if mask[j] else -1
+            end = j + 1
+    if begin >= 0:
+        count = _add(entries, count, first, latest, base + effect[begin], begin, end, valid)
+    return count
+
+
+@jit
+def _add(entries, count, first, latest, effect, begin, end, valid):
+    """Append a run, to the latest entry of its effect from `first` on where it fits in there."""
+    entry = latest[effect]
+    if entry >= first and _fits(entries[:, entry], begin, end, valid):
+        if entries[STRIDE, entry] == entries[WIDTH, entry]:
+            entries[STRIDE, entry] = begin - entries[BEGIN, entry]
+        entries[END, entry] = end
+        return count
+    latest[effect] = count
+    entries[EFFECT, count] = effect
+    entries[BEGIN, count], entries[END, count] = begin, end
+    entries[WIDTH, count], entries[STRIDE, count] = end - begin, end - begin
+    return count + 1
+
+
+@jit
+def _fits(entry, begin, end, valid):
+    """Whether a run continues an entry at its stride; no state is valid in the runs that are left out in between."""
+    width, stride = entry[WIDTH], entry[STRIDE]
+    if end - begin != width:
+        return False
+    if stride == width:  # of a single run
+        return True
+    last = entry[END] - width
+    if (begin - last) % stride != 0:
+        return False
+    for skipped in range(last + stride, begin, stride):
+        for j in range(skipped, skipped + width):
+            if valid[j]:
                 return False
-            continue
-        if stop - table == 1:
-            place = np.uintp(_place(tables, table, digits))
-            for j in range(np.uintp(n)):
-                found = np.int32(tables.data[place + j])
-                mask[j] = mask[j] & (low <= found) & (found <= high)
-        else:
-            sums[:] = 0
-            for inner in range(table, stop):
-                place = np.uintp(_place(tables, inner, digits))
-                for j in range(np.uintp(n)):
-                    sums[j] += np.int32(tables.data[place + j])
-            for j in range(np.uintp(n)):
-                mask[j] = mask[j] & (low <= sums[j]) & (sums[j] <= high)
-        if not mask.any():
-            return False
     return True
 
 
 @jit
-def _place(tables, table, digits):
-    """Where a table's value for the digits of a row is, or its values begin."""
-    place = tables.offset[table]
-    for read in range(tables.reads[table], tables.reads[table + 1]):
-        place += tables.multiplier[read] * digits[tables.variable[read]]
-    return place
-
-
-@jit
 def split(letter, valid, n, rows):
-    """Cut the valid states of each row where the letter changes.
+    """Cut each row where the letter of its valid states changes.
 
     Returns `first_part` [rows + 1] and by part `begin`, `end` and `letter` (int32).
     """
@@ -140,12 +178,10 @@ def split(letter, valid, n, rows):
     count = 0
     for row in range(rows):
         last = -1
-        for j in range(n):
-            at = row * n + j
+        for at in range(row * n, row * n + n):
             if valid[at]:
-                if last != j or letter[at] != letter[at - 1]:
-                    count += 1
-                last = j + 1
+                count += last < 0 or letter[at] != letter[last]
+                last = at
         first[row + 1] = count
     begin = np.empty(count, dtype=np.int32)
     end = np.empty(count, dtype=np.int32)
@@ -156,10 +192,33 @@ def split(letter, valid, n, rows):
         for j in range(n):
             at = row * n + j
             if valid[at]:
-                if last == j and letter[at] == letter[at - 1]:
-                    end[part] = j + 1
-                else:
+                if last < 0 or letter[at] != letter[last]:
                     part += 1
-                    begin[part], end[part], read[part] = j, j + 1, letter[at]
-                last = j + 1
+                    begin[part], read[part] = j, letter[at]
+                end[part] = j + 1
+                last = at
     return first, begin, end, read
+
+
+@jit
+def inputs(first_entry, effect, begin, n, effects):
+    """The rows that the effects of each row lead to: `first` [rows + 1] and their numbers (int32)."""
+    rows = len(first_entry) - 1
+    first = np.zeros(rows + 1, dtype=np.int64)
+    seen = np.full(rows, -1, dtype=np.int32)
+    found = np.empty(max(16, 4 * rows), dtype=np.int32)
+    count = 0
+    for row in range(rows):
+        for entry in range(first_entry[row], first_entry[row + 1]):
+            for k in range(effects.first[effect[entry]], effects.first[effect[entry] + 1]):
+                target = (row * n + begin[entry] + effects.shift[k]) // n
+                if seen[target] != row:
+                    seen[target] = row
+                    if count == len(found):
+                        larger = np.empty(2 * count, dtype=np.int32)
+                        larger[:count] = found
+                        found = larger
+                    found[count] = target
+                    count += 1
+        first[row + 1] = count
+    return first, found[:count].copy()

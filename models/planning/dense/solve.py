@@ -8,16 +8,18 @@ costs and their bounds are those of `models.planning.steps`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from itertools import pairwise
 from math import prod
-from typing import Any, Final, Literal, NamedTuple
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from models.logic import Automaton
-from models.planning.dense import compression, rows
-from models.planning.dense.tables import Effects, flatten, outer_variables
+from models.planning.dense import compression, rows, search
+from models.planning.dense.compressed import Compressed, compress
+from models.planning.dense.schedule import Schedule, schedule
+from models.planning.dense.tables import flatten, outer_variables, without_loops
 from models.planning.dense.team import Team
 from models.planning.direct import DIRECT_LIMIT
 from models.planning.errors import ModelTooLargeError
@@ -27,7 +29,8 @@ from models.planning.solution import Solution, smallest
 from models.world import Factored, OomdpWorld, ProjectedWorld, World
 
 RESIDUAL = 1e-8
-"""Rise in a sweep, in units of the cheapest action, at which iteration stops: the relative error of the costs."""
+"""Rise of values, in units of the cheapest action, up to which what leads to them is not looked at again: the relative
+error of the costs."""
 
 TIE = 1e-9
 """Relative difference of expected costs within which the first action is taken."""
@@ -36,8 +39,11 @@ TIE = 1e-9
 STATE_BYTES = 16
 """Per state: label (while it is read, 4 bytes and the truth of each atom) and validity."""
 
-ENTRY_BYTES = 24
-"""Per entry of a row: effect, begin and end, twice while their arrays grow."""
+ENTRY_BYTES = 40
+"""Per entry of a row: its five numbers, twice while their arrays grow."""
+
+ROW_BYTES = 80
+"""Per row: first entry and part, what it leads to, how near it is, its place in the order, and when it rose."""
 
 SAMPLE = 32
 """Rows looked at to estimate how many entries there are."""
@@ -52,35 +58,8 @@ ROUNDOFF = 16 * 2.0**-53
 SLOW = 200
 """Sweeps after which a small world is left to the solver that solves linear systems."""
 
-BLOCKS_FROM = 5_000_000
-"""Product states from which the rows of a sweep are taken in blocks: threads then save more than it takes to start
-them, and than the sweeps that are needed more because the rows of a block are raised together."""
-
-BLOCK = 128
-"""Rows of a block."""
-
-
-class Rows(NamedTuple):
-    """The entries and the parts of every row; the index of a state is row · length + its place in the row."""
-
-    length: int
-    first_entry: NDArray[np.int64]  # [rows + 1]
-    effect: NDArray[np.int32]
-    begin: NDArray[np.int32]
-    end: NDArray[np.int32]
-    first_part: NDArray[np.int64]  # [rows + 1]
-    part_begin: NDArray[np.int32]
-    part_end: NDArray[np.int32]
-    letter: NDArray[np.int32]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Compressed:
-    """A world as rows of entries, and which of its states are valid."""
-
-    rows: Rows
-    effects: Effects
-    valid: NDArray[np.bool_]  # [S]
+REPEATS = 5
+"""Times that a group of rows is swept in succession, at most: while its values are in the cache."""
 
 
 UNSURE: Final = "unsure"
@@ -116,28 +95,6 @@ def solve(
         return solver.cheapest(letter, row, start, losing=bool(automaton.rejecting.any()))
 
 
-def compress(world: Factored, letter: NDArray[np.signedinteger], team: Team | None = None) -> Compressed:
-    """The rows of a world whose states read `letter` ([S])."""
-    tables, effects = flatten(world)
-    length = prod(world.radix[outer_variables(world) :])
-    count = len(letter) // length
-
-    def some(begin: int, end: int) -> tuple[NDArray[Any], ...]:
-        found: tuple[NDArray[Any], ...] = compression.compress(tables, effects, length, end - begin, begin)
-        return found
-
-    parts = [some(0, count)] if team is None else team.share(some, 0, count)
-    offset = np.cumsum([0, *(len(part[1]) for part in parts)])
-    first = np.concatenate([[0], *(part[0][1:] + before for part, before in zip(parts, offset, strict=False))])
-    effect, begin, end, valid = (_joined([part[k] for part in parts]) for k in range(1, 5))
-    pieces = compression.split(letter, valid, length, count)
-    return Compressed(Rows(length, first, effect, begin, end, *pieces), effects, valid)
-
-
-def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)
-
-
 def _memories(automaton: Automaton) -> NDArray[np.int32]:
     """[R, L] the row after a letter is read in the memory of a row; -1: the formula then holds, -2: it fails."""
     after: NDArray[np.int32] = _rows(automaton)[automaton.successors[_rows(automaton) >= 0]]
@@ -152,14 +109,23 @@ def _rows(automaton: Automaton) -> NDArray[np.int32]:
     return number
 
 
+def _settled(after: NDArray[np.int32]) -> bool:
+    """Whether to read a letter twice is always the same as to read it once: a state that does not change then leaves
+    the memory as it is too.
+    """
+    once = np.maximum(after, 0)
+    twice = np.take_along_axis(after, once, axis=0)
+    return bool(((after < 0) | (twice == after)).all())
+
+
 def _check_bytes(states: int, live: int, world: Factored, options: Options) -> None:
     """The entries of the rows are estimated from evenly spaced ones."""
     tables, effects = flatten(world)
     length = prod(world.radix[outer_variables(world) :])
     count = states // length
     sample = np.unique(np.linspace(0, count - 1, SAMPLE).astype(np.int64)).tolist()
-    entries = sum(len(compression.compress(tables, effects, length, 1, row)[1]) for row in sample) / len(sample)
-    estimate = states * (STATE_BYTES + live * MEMORY_BYTES) + int(count * entries) * ENTRY_BYTES
+    entries = sum(len(compression.compress(tables, effects, length, 1, row)[1][0]) for row in sample) / len(sample)
+    estimate = states * (STATE_BYTES + live * MEMORY_BYTES) + int(count * (ROW_BYTES + entries * ENTRY_BYTES))
     if estimate > options.max_bytes:
         raise ModelTooLargeError(
             f"planning needs about {estimate} bytes ({states * live} product states); the limit is {options.max_bytes}",
@@ -177,6 +143,7 @@ class _Solver:
     ) -> None:
         self._world, self._after, self._team = world, after, team
         self._options, self._progress = options, progress
+        self._moving = without_loops(world.effects) if _settled(after) else world.effects
         self._count = len(world.rows.first_entry) - 1
 
     def sure_distance(self, *, losing: bool) -> NDArray[np.int32] | None:
@@ -184,23 +151,25 @@ class _Solver:
         is possible somewhere and not sure.
         """
         distance = self._search(np.zeros((0, 0), dtype=np.bool_))
-        if not losing and rows.all_reached(self._world.rows, self._after, distance):
+        if not losing and search.all_reached(self._world.rows, self._world.valid, self._after, distance):
             return distance
-        possible = distance < rows.INFINITE
+        possible = distance < search.INFINITE
         distance = self._search(possible)
-        return distance if ((distance < rows.INFINITE) == possible).all() else None
+        return distance if ((distance < search.INFINITE) == possible).all() else None
 
     def _search(self, inside: NDArray[np.bool_]) -> NDArray[np.int32]:
         """[R, S] by memory before reading, the fewest steps that may lead to acceptance."""
-        world, effects, after = self._world.rows, self._world.effects, self._after
-        distance = np.full((len(after), len(self._world.valid)), rows.INFINITE, dtype=np.int32)
-        rows.accept(world, after, distance)
+        world, effects, valid, after = self._world.rows, self._world.effects, self._world.valid, self._after
+        distance = np.full((len(after), len(self._world.valid)), search.INFINITE, dtype=np.int32)
+        looked, altered = np.zeros(self._count, dtype=np.int64), np.full(self._count, -1, dtype=np.int64)
+        search.accept(world, valid, after, distance, altered)
         sweep, changed = 0, 1
         while changed:
             sweep += 1
 
-            def some(begin: int, end: int, backwards: bool = sweep % 2 == 0) -> int:
-                return int(rows.approach(world, effects, after, distance, inside, backwards, begin, end))
+            def some(begin: int, end: int, sweep: int = sweep) -> int:
+                arguments = (distance, inside, sweep, looked, altered, begin, end)
+                return int(search.approach(world, effects, valid, after, *arguments))
 
             changed = sum(self._team.share(some, 0, self._count))
             self._progress("graph", sweep, 0.0, np.inf, changed)
@@ -216,20 +185,22 @@ class _Solver:
         if distance is None:
             return UNSURE
         least = float(self._world.effects.cost.min())
-        order = np.argsort(rows.nearness(self._world.rows, distance), kind="stable")
+        plan = schedule(self._world.rows, self._world.radix, search.nearness(self._world.rows, distance))
         value = np.empty(distance.shape)
-        rows.begin_at(distance, least, value)
+        search.begin_at(distance, least, value)
         del distance
-        for sweep in range(1, self._options.max_sweeps + 1):
-            rise = self._sweep(value, order)
+        ticks = np.zeros((2, self._count), dtype=np.int64)
+        for sweep in self._options.sweeps("steps"):
+            rising = self._sweep(value, plan, RESIDUAL * least, ticks, sweep)
             self._progress("steps", sweep, 0.0, np.inf, value.size)
-            if rise <= RESIDUAL * least:
+            if not rising:
                 break
             if sweep == SLOW and value.size <= DIRECT_LIMIT:
                 return UNSURE  # small enough to be solved directly
         for tie in (TIE, 0.0):
             action, steps, excess = self._choose(value, tie)
-            excess += self._rounding(float(steps.max(initial=0)))
+            rounding = self._rounding(float(steps.max(initial=0)))
+            excess += rounding
             if excess < least:
                 break
         else:
@@ -244,7 +215,7 @@ class _Solver:
             expected_steps=steps,
             lower=1.0,
             upper=1.0,
-            steps=(max(0.0, reached - excess), reached / (1.0 - excess / least)),
+            steps=(max(0.0, reached - excess) / (1.0 + rounding / least), reached / (1.0 - excess / least)),
             component=None,
             rounds=np.zeros((0, 2)),
         )
@@ -255,36 +226,33 @@ class _Solver:
         exact = bool((effects.probability == 1).all() and (effects.cost == np.floor(effects.cost)).all())
         return 0.0 if exact else ROUNDOFF * greatest
 
-    def _sweep(self, value: NDArray[np.float64], order: NDArray[np.intp]) -> float:
-        """Raise all values once, nearest rows first, so that most of a value is there after one sweep; returns the
-        greatest rise. In a large world threads share a block of rows, which do not see what becomes of each other.
+    def _sweep(
+        self, value: NDArray[np.float64], plan: Schedule, residual: float, ticks: NDArray[np.int64], sweep: int
+    ) -> int:
+        """Raise all values, nearest rows first, so that most of a value is there after one sweep; returns how many rose
+        by more than `residual`. `ticks` [2, rows] tells when a row was looked at and when it rose. Threads share the
+        groups of a level, which comes to the same as one group after the other.
         """
-        world, effects, after = self._world.rows, self._world.effects, self._after
-        flat, rise = value.reshape(-1), 0.0
-        if value.size < BLOCKS_FROM:
-            return float(rows.lift_all(world, effects, after, flat, effects.cost, order))
-        found = np.empty((BLOCK, len(after), world.length))
-        for first in range(0, self._count, BLOCK):
-            last = min(first + BLOCK, self._count)
+        tick = (sweep - 1) * REPEATS * self._count + 1
+        looked, rose = ticks
+        world = (self._world.rows, self._moving, self._after)
+        where = (value.reshape(-1), residual, plan.order, plan.group, REPEATS)
 
-            def look(begin: int, end: int, first: int = first) -> None:
-                rows.look_ahead(world, effects, after, flat, effects.cost, order, begin, end, found[begin - first :])
+        def some(begin: int, end: int) -> int:
+            return int(rows.sweep(*world, *where, looked, rose, tick, begin, end))
 
-            def lift(begin: int, end: int, first: int = first) -> float:
-                return float(rows.lift(world, after, flat, order, begin, end, found[begin - first :]))
-
-            self._team.share(look, first, last)
-            rise = max(rise, *self._team.share(lift, first, last))
-        return rise
+        if not plan.parallel:
+            return some(0, len(plan.group) - 1)
+        return sum(sum(self._team.share(some, begin, end)) for begin, end in pairwise(plan.level.tolist()))
 
     def _choose(self, value: NDArray[np.float64], tie: float) -> tuple[NDArray[np.int16], NDArray[np.float64], float]:
         """[R, S] actions and costs after reading, and how far the costs exceed the values at most."""
-        world, effects, after = self._world.rows, self._world.effects, self._after
+        world, effects, valid, after = self._world.rows, self._world.effects, self._world.valid, self._after
         action = np.empty(value.shape, dtype=np.int16)  # MAX_GROUNDINGS fit
         steps = np.empty(value.shape)
-        flat = (value.reshape(-1), effects.cost, tie, action.reshape(-1), steps.reshape(-1))
+        flat = (value.reshape(-1), tie, action.reshape(-1), steps.reshape(-1))
 
         def some(begin: int, end: int) -> float:
-            return float(rows.choose(world, effects, after, *flat, begin, end))
+            return float(rows.choose(world, effects, valid, after, *flat, begin, end))
 
         return action, steps, max(self._team.share(some, 0, self._count))

@@ -199,3 +199,25 @@ def _effects(actions: tuple[FactoredAction, ...]) -> Effects:
         np.concatenate([*probability, np.ones(1)]),
         np.concatenate([*shift, np.zeros(1, dtype=np.int64)]).astype(np.int64),
     )
+
+
+def without_loops(effects: Effects) -> Effects:
+    """The same effects with another outcome for sure: to try until the state changes, at what that costs on average.
+
+    Least costs are the same, and lower bounds of them stay so, as c + p v + q w >= v where c/q + w >= v, for the
+    probability q = 1 - p that the state changes. What never changes the state is left as it is.
+    """
+    owner = np.repeat(np.arange(len(effects.cost)), np.diff(effects.first))
+    moves = effects.shift != 0
+    chance = np.bincount(owner[moves], effects.probability[moves], minlength=len(effects.cost))
+    stuck = chance == 0
+    chance[stuck] = 1.0
+    keep = moves | stuck[owner]
+    first = np.concatenate([[0], np.cumsum(np.bincount(owner[keep], minlength=len(effects.cost)))]).astype(np.int32)
+    return Effects(
+        effects.action,
+        effects.cost / chance,
+        first,
+        effects.probability[keep] / chance[owner[keep]],
+        effects.shift[keep],
+    )

@@ -28,9 +28,7 @@ def strong(nodes, first_choice, first_outcome, successor, allowed, label, index,
             entered = nodes[start]
         else:
             node = path[depth - 1]
-            entered, seen = _next(
-                node, first_choice, first_outcome, successor, allowed, label, index, low, at
-            )
+            entered, seen = _next(node, first_choice, first_outcome, successor, allowed, label, index, low, at)
             looked += seen
         if entered >= 0:
             found += 1

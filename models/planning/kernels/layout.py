@@ -35,7 +35,8 @@ def number_nodes(next_memory, valid, live, column, node):
 
 @jit
 def room(rows, first_choice, first_outcome, first, at):
-    """Write where the choices of each of `rows` will begin to `first`, from `at` on; returns how many outcomes they have.
+    """Write where the choices of each of `rows` will begin to `first`, from `at` on; returns how many outcomes they
+    have.
     """
     place, outcomes = first[at], 0
     for k in range(len(rows)):

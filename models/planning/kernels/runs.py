@@ -6,7 +6,6 @@ import numpy as np
 
 from models.planning.kernels import jit
 
-
 BATCH = 256
 """Product states whose choices are looked up together: their reads from memory then overlap."""
 

@@ -1,6 +1,6 @@
 """Shapes of requests and responses (docs/http.md), by resource."""
 
-from service.http.schemas.common import BindingOut, ContextualQueryOut, Health, Request
+from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.language import (
     BatchRequest,
@@ -52,7 +52,7 @@ __all__ = [
     "BindingOut",
     "Bounds",
     "CandidateOut",
-    "ContextualQueryOut",
+    "ContextualQueryTree",
     "EnvironmentList",
     "EnvironmentOut",
     "EnvironmentSummary",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from service.translators import TranslatorKey
 
@@ -31,18 +31,40 @@ class Request(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-class ContextualQueryOut(BaseModel):
-    """A contextual query as text and in parts."""
+class ContextualQueryTree(BaseModel):
+    """A contextual query in parts: a task with its arguments, or an operator with its operands.
 
-    text: str
-    task: str
-    arguments: list[str]
+    `then(A, B)`: B once A is done. `and`, `or`: all or one of them, in any order. `avoid(A)`: A never happens.
+    `until(A, B)`: A is kept up until B is done. `without(A, B)`: B is not so when A is done.
+    `repeat(A)`: again and again.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    text: str | None = Field(None, max_length=4_096, description="The text form. In requests it is not read.")
+    operator: Literal["then", "and", "or", "avoid", "until", "without", "repeat"] | None = Field(
+        None, description="Null for a single task."
+    )
+    task: str | None = Field(None, max_length=100, description="Null for a composition.")
+    arguments: list[str] = Field(default_factory=list, max_length=16, description="Phrases: those of the task.")
+    operands: list[ContextualQueryTree] = Field(default_factory=list, max_length=32, description="Of the operator.")
+
+    @model_validator(mode="after")
+    def _task_or_operator(self) -> Self:
+        if (self.task is None) == (self.operator is None):
+            raise ValueError("give exactly one of task, operator")
+        if self.arguments and self.task is None:
+            raise ValueError("arguments belong to a task")
+        if self.operands and self.operator is None:
+            raise ValueError("operands belong to an operator")
+        return self
 
 
 class BindingOut(BaseModel):
     """What an argument grounded to."""
 
-    argument: int = Field(description="Position of the argument, from 1.")
+    part: str = Field(description="JSON pointer of the task within the query; empty where it is not composed.")
+    argument: int = Field(description="Position of the argument in its task, from 1.")
     phrase: str
     name: str = Field(description="The object or attribute value.")
     kind: str = Field(description="Its class or attribute type.")

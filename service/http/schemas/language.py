@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, model_validator
 
 from service.http.problems import ErrorPlace
 from service.http.schemas.common import (
     BindingOut,
     Command,
-    ContextualQueryOut,
+    ContextualQueryTree,
     EnvironmentName,
     FormulaText,
     QueryText,
@@ -40,7 +40,7 @@ class BatchRequest(Request):
 class CandidateOut(BaseModel):
     """One reading of a command."""
 
-    contextual_query: ContextualQueryOut | None = Field(description="Null from `ltl-copynet`, which gives formulas.")
+    contextual_query: ContextualQueryTree | None = Field(description="Null from `ltl-copynet`, which gives formulas.")
     ltl: str | None = Field(
         description="Grounded LTL; null without an environment, or when it cannot be grounded, see `issues`. "
         "From `ltl-copynet` without an environment: as the network wrote it."
@@ -65,7 +65,7 @@ class TranslateResponse(BaseModel):
 
     text: str
     outcome: Literal["translated", "ambiguous", "unknown"]
-    contextual_query: ContextualQueryOut | None
+    contextual_query: ContextualQueryTree | None
     ltl: str | None
     confidence: float | None
     explanation: str | None
@@ -138,16 +138,23 @@ class TemplateList(BaseModel):
 
 
 class GroundRequest(Request):
-    """A contextual query to evaluate."""
+    """A contextual query to evaluate: as text, or in parts."""
 
-    contextual_query: QueryText
+    contextual_query: QueryText | None = None
+    query: ContextualQueryTree | None = None
     environment: EnvironmentName
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> Self:
+        if (self.contextual_query is None) == (self.query is None):
+            raise ValueError("give exactly one of contextual_query, query")
+        return self
 
 
 class GroundResponse(BaseModel):
     """Grounded LTL."""
 
-    contextual_query: ContextualQueryOut
+    contextual_query: ContextualQueryTree
     ltl: str
     explanation: str
     bindings: list[BindingOut]

@@ -10,7 +10,7 @@ from models.world import EnvironmentSpec
 from service.http.schemas.common import (
     BindingOut,
     Command,
-    ContextualQueryOut,
+    ContextualQueryTree,
     EnvironmentName,
     FormulaText,
     QueryText,
@@ -32,17 +32,26 @@ class PlanOptions(Request):
         False, description="Also evaluate the policy apart from planning; the time for it counts towards `timeout_s`."
     )
     epsilon: float = Field(1e-6, ge=1e-12, lt=1, description="Most that upper and lower probability may differ.")
-    timeout_s: float = Field(30.0, gt=0, allow_inf_nan=False, description="Longest planning time, in seconds.")
+    timeout_s: float = Field(
+        30.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Longest planning time, in seconds. Before it ends iteration stops, and the answer "
+        "has the bounds that were reached; `out-of-time` is left for what has no answer by then.",
+    )
     max_states: int = Field(50_000_000, ge=1, description="Most product states.")
     device: Literal["auto", "cpu", "cuda"] = "auto"
     relevance: bool = Field(True, description="Leave out of the world what the task cannot depend on.")
 
 
 class PlanRequest(Request):
-    """What to plan: exactly one of `text`, `contextual_query`, `ltl`, and one of `environment`, `environment_spec`."""
+    """What to plan: exactly one of `text`, `contextual_query`, `query`, `ltl`, and one of `environment`,
+    `environment_spec`.
+    """
 
     text: Command | None = None
     contextual_query: QueryText | None = None
+    query: ContextualQueryTree | None = None
     ltl: FormulaText | None = None
     environment: EnvironmentName | None = None
     environment_spec: EnvironmentSpec | None = None
@@ -52,7 +61,7 @@ class PlanRequest(Request):
 
     @model_validator(mode="after")
     def _exactly_one(self) -> Self:
-        for names in (("text", "contextual_query", "ltl"), ("environment", "environment_spec")):
+        for names in (("text", "contextual_query", "query", "ltl"), ("environment", "environment_spec")):
             if sum(getattr(self, name) is not None for name in names) != 1:
                 raise ValueError(f"give exactly one of {', '.join(names)}")
         return self
@@ -126,7 +135,7 @@ class PlanResponse(BaseModel):
         "goal is the formula, or its negation where the objective is `min`."
     )
     objective: Literal["max", "min"]
-    contextual_query: ContextualQueryOut | None
+    contextual_query: ContextualQueryTree | None
     ltl: str
     explanation: str
     bindings: list[BindingOut] = Field(description="What the phrases of a command or query were taken for.")

@@ -56,8 +56,9 @@ class AutomatonOut(BaseModel):
 class PolicyOut(BaseModel):
     """A whole policy.
 
-    Place = sum over variables of `stride` times the position of the state's value in `values`; where `stride` is 0 the
-    variable does not matter as long as that position is in `harmless`, and otherwise the plan has to be made again. In
+    Place = sum over variables of `stride` times the position of the state's value in `values`; where `indices` is not
+    null, it is where that sum stands in `indices`. Where `stride` is 0 the variable does not matter as long as that
+    position is in `harmless`, and otherwise the plan has to be made again, as it has if the sum is not in `indices`. In
     a state, the memory becomes `after = automaton.successors[memory][letter[place]]`. Where `automaton.row[after]` is
     -1 the outcome is decided: satisfied where `automaton.accepted[after]` is 1, else lost. Otherwise the flat arrays
     `action`, `probability` and `expected_steps` tell at `automaton.row[after] * places + place` what to do.
@@ -76,6 +77,10 @@ class PolicyOut(BaseModel):
     initial: Start
     places: int
     memories: int
+    indices: list[int] | None = Field(
+        description="Ascending; the states that can be reached from where the plan began, where the world has too many "
+        "to plan for all. Null: every sum of strides is a place."
+    )
     letter: list[int] = Field(description="By place: what is read there; -1 the state is not legal.")
     action: list[int] = Field(
         description="Index into `actions`; -1 nothing to do, the formula cannot be satisfied; -2 let one step pass."

@@ -11,7 +11,7 @@ import pytest
 
 from models.logic import parse
 from models.planning import Options, plan
-from models.planning.dense.solve import Compressed, compress
+from models.planning.dense.compressed import Compressed, Rows, compress
 from models.world import OomdpWorld, ProjectedWorld, compile_world, load_environment, relevant_part, toys_spec
 from tests.planning.random_tasks import navigation_task, toys_task
 from tests.world.test_factors import WORLDS
@@ -30,18 +30,30 @@ def world_of(data: Any) -> OomdpWorld:
 
 
 def entries(dense: Compressed) -> list[Moves]:
-    """The moves of every state."""
+    """The moves of every valid state; those of others, which count for nothing, lead to states of the world too."""
     rows, effects = dense.rows, dense.effects
     found: list[Moves] = [{} for _ in dense.valid]
     for row in range(len(rows.first_entry) - 1):
         for entry in range(rows.first_entry[row], rows.first_entry[row + 1]):
             effect = rows.effect[entry]
             action, outcomes = int(effects.action[effect]), range(effects.first[effect], effects.first[effect + 1])
-            assert 0 <= rows.begin[entry] < rows.end[entry] <= rows.length
-            for state in range(row * rows.length + rows.begin[entry], row * rows.length + rows.end[entry]):
-                assert action not in found[state], "a state has an action twice"
-                found[state][action] = {state + int(effects.shift[k]): float(effects.probability[k]) for k in outcomes}
+            for place in places(rows, entry):
+                state = row * rows.length + place
+                move = {state + int(effects.shift[k]): float(effects.probability[k]) for k in outcomes}
+                assert all(0 <= successor < len(found) for successor in move)
+                if dense.valid[state]:
+                    assert action not in found[state], "a state has an action twice"
+                    found[state][action] = move
     return found
+
+
+def places(rows: Rows, entry: int) -> list[int]:
+    """The places in the row where an entry's effect is possible."""
+    begin, end, width, stride = (int(part[entry]) for part in (rows.begin, rows.end, rows.width, rows.stride))
+    assert 0 <= begin < end <= rows.length
+    assert 0 < width <= stride
+    assert (end - begin - width) % stride == 0
+    return [place for run in range(begin, end, stride) for place in range(run, run + width)]
 
 
 def moves(world: OomdpWorld | ProjectedWorld) -> list[Moves]:
@@ -136,6 +148,16 @@ def test_a_stuck_state_stays(length: int, monkeypatch: pytest.MonkeyPatch) -> No
     assert not found[0], "an invalid state has no entry"
 
 
+def test_what_a_row_repeats_is_one_entry() -> None:
+    """In rows of two toys the last toy can be picked up where it is with the robot: at every 18th place."""
+    dense = check(world_of(toys_spec(columns=4, rows=4, toys=2, slip=0.1)))
+    rows = dense.rows
+    assert rows.length == 18 * 18
+    repeated = rows.stride > rows.width
+    assert (rows.stride[repeated] == 18).mean() > 0.9
+    assert len(rows.effect) < 12 * (len(rows.first_entry) - 1)
+
+
 @pytest.mark.parametrize("length", LENGTHS)
 def test_rows_are_cut_where_the_letter_changes(length: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("models.planning.dense.tables.LENGTH", length)
@@ -147,14 +169,25 @@ def test_rows_are_cut_where_the_letter_changes(length: int, monkeypatch: pytest.
         read = np.full(world.size, -1)
         for row in range(len(rows.first_part) - 1):
             parts = range(rows.first_part[row], rows.first_part[row + 1])
-            for part, following in pairwise(parts):
-                touching = rows.part_end[part] == rows.part_begin[following]
-                assert not touching or rows.letter[part] != rows.letter[following], "parts are as long as can be"
+            assert all(rows.letter[part] != rows.letter[following] for part, following in pairwise(parts))
             for part in parts:
                 here = slice(row * rows.length + rows.part_begin[part], row * rows.length + rows.part_end[part])
                 assert (read[here] == -1).all()
                 read[here] = rows.letter[part]
-        assert (read == np.where(world.valid(), letter, -1)).all()
+        assert (read == letter)[world.valid()].all()
+
+
+@pytest.mark.parametrize("length", LENGTHS)
+def test_a_row_leads_to_the_rows_of_its_successors(length: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("models.planning.dense.tables.LENGTH", length)
+    for world in (world_of(WORLDS["many toys"]), toys_task(1).world, navigation_task(3).world):
+        assert world.factored is not None
+        rows = compress(world.factored, np.zeros(world.size, dtype=np.int8)).rows
+        known: list[set[int]] = [set() for _ in range(len(rows.first_input) - 1)]
+        for state, choices in enumerate(moves(world)):
+            known[state // rows.length] |= {successor // rows.length for move in choices.values() for successor in move}
+        found = [rows.input[begin:end].tolist() for begin, end in pairwise(rows.first_input)]
+        assert [sorted(row) for row in known] == [sorted(row) for row in found]
 
 
 @pytest.mark.parametrize("limit", ["3000000000", "2147483649", "1e30", "1 / 0"])

@@ -264,7 +264,7 @@ def test_an_exception_from_progress_cancels(rooms: OomdpWorld, stage: str) -> No
 def test_what_is_cut_short_says_so_and_its_bounds_hold(sweeps: int) -> None:
     cut = 0
     for seed in range(20):
-        world = world_of(toys_spec(columns=2 + seed % 2, rows=1, toys=1, slip=0.5, seed=seed))
+        world = world_of(toys_spec(columns=3, rows=2 + seed % 2, toys=1, slip=0.5, seed=seed))
         exactly = plan(world, parse(ORDER), options=WHOLE)
         result = plan(world, parse(ORDER), options=Options(relevance=False, max_sweeps=sweeps))
         if exactly.expected_steps is None or result.expected_steps is None or result.policy is None:

@@ -1,4 +1,4 @@
-"""The same plan for any number of threads, in blocks or row by row."""
+"""The same plan for any number of threads, level by level or group by group."""
 
 from __future__ import annotations
 
@@ -15,29 +15,22 @@ from models.world import compile_world, load_environment, toys_spec
 TASK = "F (in(cylinder, box) & F at(box, bedroom))"
 
 
-def planned(monkeypatch: pytest.MonkeyPatch, *, threads: int, blocks: bool) -> Plan:
-    solve = importlib.import_module("models.planning.dense.solve")
+def planned(monkeypatch: pytest.MonkeyPatch, *, threads: int, levels: bool) -> Plan:
+    schedule = importlib.import_module("models.planning.dense.schedule")
     team = importlib.import_module("models.planning.dense.team")
     monkeypatch.setattr(team, "TOGETHER_FROM", 0)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(threads)), raising=False)
-    monkeypatch.setattr(solve, "BLOCKS_FROM", 0 if blocks else 10**12)
-    monkeypatch.setattr(solve, "BLOCK", 7)
+    monkeypatch.setattr(schedule, "FEW", 0 if levels else 10**6)
     world = compile_world(load_environment(toys_spec(columns=3, rows=2, toys=2, slip=0.1)))
     return plan(world, parse(TASK), options=Options(relevance=False))
 
 
-@pytest.mark.parametrize("blocks", [True, False])
-def test_any_number_of_threads_gives_the_same_bytes(monkeypatch: pytest.MonkeyPatch, blocks: bool) -> None:
-    plans = [planned(monkeypatch, threads=threads, blocks=blocks) for threads in (1, 2, 5)]
+def test_any_number_of_threads_gives_the_same_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    plans = [planned(monkeypatch, threads=threads, levels=levels) for threads in (1, 2, 5) for levels in (True, False)]
     policies = [to_bytes(found.policy) for found in plans if found.policy is not None]
-    assert len(policies) == 3
+    assert len(policies) == 6
     assert len(set(policies)) == 1
     assert len({(found.expected_steps, found.expected_steps_upper) for found in plans}) == 1
-
-
-def test_blocks_come_to_the_same_values(monkeypatch: pytest.MonkeyPatch) -> None:
-    one, other = (planned(monkeypatch, threads=2, blocks=blocks) for blocks in (True, False))
-    assert one.expected_steps == pytest.approx(other.expected_steps, rel=1e-7)
 
 
 def test_a_range_is_shared_without_gaps(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -255,3 +255,22 @@ def test_a_plan_that_takes_too_long_is_stopped(client: httpx.Client) -> None:
     body = {"ltl": task, "environment_spec": large, "options": {"timeout_s": 0.2}}
     check_problem(client.post("/plan", json=body), "out-of-time", 422)
     assert client.get("/livez").status_code == 200
+
+
+def test_a_plan_that_runs_out_of_time_answers_with_the_bounds_it_reached(client: httpx.Client) -> None:
+    """A walk between winning and losing, far too long for its values to settle in a second; the true value is 1/2."""
+    size = 4_001
+    steps = [{"from": s, "action": "go", "to": [[s - 1, 0.5], [s + 1, 0.5]]} for s in range(1, size - 1)]
+    spec = {
+        "name": "walk",
+        "kind": "explicit",
+        "states": size,
+        "initial": size // 2,
+        "labels": {"a": [size - 1]},
+        "transitions": steps,
+    }
+    answer = plan(client, ltl="F a", environment_spec=spec, options={"timeout_s": 2, "verify": False})
+    assert answer["outcome"] == "solved"
+    assert answer["probability"]["lower"] <= 0.5 <= answer["probability"]["upper"]
+    assert answer["probability"]["upper"] - answer["probability"]["lower"] > 0.1
+    assert answer["timing"]["total_s"] < 2.5

@@ -18,8 +18,10 @@ def test_translates_the_papers_sentences(client: httpx.Client) -> None:
     assert answer["outcome"] == "translated"
     assert answer["contextual_query"] == {
         "text": "ship(cylinder, box, bedroom)",
+        "operator": None,
         "task": "ship",
         "arguments": ["cylinder", "box", "bedroom"],
+        "operands": [],
     }
     assert answer["ltl"] == SHIP_LTL
     assert answer["explanation"] == (

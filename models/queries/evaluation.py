@@ -1,0 +1,67 @@
+"""Composed queries in an environment: every task through its template, then the operators' meanings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from models.errors import CqltlError, Place
+from models.logic import Formula
+from models.queries.contextual_query import ContextualQuery, Query
+from models.queries.errors import AmbiguousGroundingError, CompositionError
+from models.queries.meaning import compose
+from models.queries.template import Binding, GroundedTask
+
+Path = tuple[int, ...]
+"""From the root of a query to one of its parts: the places of the operands."""
+
+
+@dataclass(frozen=True, slots=True)
+class GroundedQuery:
+    """A query evaluated: grounded LTL and the binding of every argument, with the path of its task."""
+
+    query: Query
+    formula: Formula
+    bindings: tuple[tuple[Path, Binding], ...]
+
+
+def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> GroundedQuery:
+    """Evaluate every task of a query with `ground`, and put them together.
+
+    Raises:
+        CompositionError: an operator has no meaning for its operands; the place names it.
+        FormulaTooLargeError: the formula is beyond the limits of `models.logic`.
+        AmbiguousGroundingError: that of the first task which is ambiguous, if no other is refused.
+        CqltlError: what else `ground` raises, with its places within the whole query.
+    """
+    tasks: dict[Path, GroundedTask] = {}
+    doubt: AmbiguousGroundingError | None = None
+    for path, task in query.tasks:
+        try:
+            tasks[path] = ground(task)
+        except CqltlError as error:
+            error.places = tuple(replace(place, pointer=pointer_of(path) + place.pointer) for place in error.places)
+            if not isinstance(error, AmbiguousGroundingError):
+                raise
+            doubt = doubt or error
+    if doubt is not None:
+        raise doubt
+    bindings = tuple((path, binding) for path, task in tasks.items() for binding in task.bindings)
+    return GroundedQuery(query, _formula(query, tasks, ()), bindings)
+
+
+def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path) -> Formula:
+    """The formula of the part at a path."""
+    if isinstance(query, ContextualQuery):
+        return tasks[path].formula
+    operands = [_formula(operand, tasks, (*path, place)) for place, operand in enumerate(query.operands)]
+    try:
+        return compose(query.operator, operands)
+    except CompositionError as error:
+        detail = f"{query}: {error.detail}"
+        raise CompositionError(detail, places=[Place(pointer_of(path), detail)]) from None
+
+
+def pointer_of(path: Path) -> str:
+    """The JSON pointer of a part in the JSON form of its query."""
+    return "".join(f"/operands/{place}" for place in path)
