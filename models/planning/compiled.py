@@ -18,14 +18,16 @@ BLOCK = 2**18
 SAMPLE = 2**12
 """States looked at to estimate the memory of a larger world; drawn evenly spaced."""
 
-OUTCOME_BYTES = 12
-"""One stored outcome: successor (4) and probability (8)."""
+OUTCOME_BYTES, CHOICE_BYTES = 12, 20
+"""One listed outcome: successor (4), probability (8); one choice: action (4), cost (8), first outcome and place (8)."""
 
-WORKING_COPIES = 5
-"""How often an outcome is held at the peak: world, product, predecessors, the operator and its making."""
+PRODUCT_OUTCOME_BYTES, PRODUCT_CHOICE_BYTES = 28, 48
+"""The same for each memory that is iterated, at the peak: in the product (12 and 16), its predecessors (4 and 4) and
+the problem that is solved (12 and 20); marks of choices (8)."""
 
-STATE_BYTES = 64
-"""Per product state: policy arrays (24), values and bounds (24), index and flags (16)."""
+STATE_BYTES, MEMORY_BYTES = 160, 16
+"""Per state and memory that is iterated: policy (24), values and bounds (64), searches (72); and per state and memory:
+what the memory becomes, the node, and whether there is one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,33 +67,46 @@ def check_memory(world: World, memories: int, live: int, options: Options) -> No
     """Refuse a product that needs more than `options.max_bytes`; raises ModelTooLargeError before allocating
     it.
 
-    `live` is the number of automaton states that are iterated. The number of outcomes of a large world is
-    estimated from evenly spaced states; worlds of up to SAMPLE states are small enough to be compiled first.
+    `live` is the number of automaton states that are iterated. The choices and outcomes of a large world are estimated
+    from evenly spaced states; worlds of up to SAMPLE states are small enough to be compiled first.
     """
     if world.listed is not None:
-        _check_bytes(world.size, memories, live, len(world.listed.successor) / world.size, options)
+        counts = len(world.listed.action), len(world.listed.successor)
+        _check_bytes(world.size, memories, live, *counts, copies=1, options=options)
         return
     if world.size <= SAMPLE:
         return
     states = np.linspace(0, world.size - 1, SAMPLE).astype(np.int64)
     states = states[world.valid(states)]
-    outcomes = sum(
-        int(np.count_nonzero(world.outcomes(action, states).probability)) for action in range(len(world.actions))
-    )
-    _check_bytes(world.size, memories, live, outcomes / max(1, len(states)), options)
+    choices = outcomes = 0
+    for action in range(len(world.actions)):
+        answer = world.outcomes(action, states)
+        choices += int(np.count_nonzero(answer.enabled))
+        outcomes += int(np.count_nonzero(answer.probability))
+    share = world.size / max(1, len(states))
+    counts = int(max(choices, len(states)) * share), int(max(outcomes, len(states)) * share)
+    _check_bytes(world.size, memories, live, *counts, copies=2, options=options)
 
 
 def check_outcomes(world: CompiledWorld, memories: int, live: int, options: Options) -> None:
     """As `check_memory`, with the outcomes counted; raises ModelTooLargeError before allocating the product."""
-    _check_bytes(world.states, memories, live, len(world.successor) / world.states, options)
+    _check_bytes(world.states, memories, live, len(world.action), len(world.successor), copies=1, options=options)
 
 
-def _check_bytes(states: int, memories: int, live: int, per_state: float, options: Options) -> None:
-    estimate = int(states * (STATE_BYTES * memories + per_state * OUTCOME_BYTES * WORKING_COPIES * max(1, live)))
+def _check_bytes(
+    states: int, memories: int, live: int, choices: int, outcomes: int, *, copies: int, options: Options
+) -> None:
+    """`copies` is how often choices and outcomes are held beside the product: twice while blocks are joined."""
+    rounds = max(1, live)
+    estimate = (
+        states * (MEMORY_BYTES * memories + STATE_BYTES * rounds)
+        + choices * (CHOICE_BYTES * copies + PRODUCT_CHOICE_BYTES * rounds)
+        + outcomes * (OUTCOME_BYTES * copies + PRODUCT_OUTCOME_BYTES * rounds)
+    )
     if estimate > options.max_bytes:
         raise ModelTooLargeError(
-            f"planning needs about {estimate} bytes ({states * memories} product states, about {per_state:.0f} "
-            f"outcomes a state); the limit is {options.max_bytes}",
+            f"planning needs about {estimate} bytes ({states * memories} product states, about "
+            f"{outcomes / states:.0f} outcomes a state); the limit is {options.max_bytes}",
             estimate=estimate,
             limit=options.max_bytes,
             unit="bytes",

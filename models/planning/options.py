@@ -72,8 +72,8 @@ class Progress(Protocol):
         those of the initial state's value; `states` is what a sweep updates.
 
         In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say
-        nothing yet (0 and infinity). In "graph" it is one level of a search, `states` is what the level comes
-        to, and the bounds say nothing either; levels are counted anew in each search.
+        nothing yet (0 and infinity). In "graph" it is a stretch of a search, `states` is how many outcomes it looked
+        at, and the bounds say nothing either; stretches are counted anew in each search.
         """
 
 

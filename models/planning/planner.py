@@ -18,7 +18,7 @@ import numpy as np
 from models.logic import Automaton, Dialect, Formula, Op, Unary, to_text, translate
 from models.planning import codec, dense, sparse
 from models.planning.chain import Chain, explore
-from models.planning.compiled import OUTCOME_BYTES, WORKING_COPIES, check_size
+from models.planning.compiled import OUTCOME_BYTES, PRODUCT_OUTCOME_BYTES, check_size
 from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import Policy
@@ -160,7 +160,7 @@ def _reachable(
         part,
         start,
         most_states=min(MOST_REACHABLE, settings.max_states // automaton.states),
-        most_outcomes=settings.max_bytes // (OUTCOME_BYTES * WORKING_COPIES),
+        most_outcomes=settings.max_bytes // (OUTCOME_BYTES + PRODUCT_OUTCOME_BYTES),
         tell=lambda found: progress("compile", next(levels), 0.0, np.inf, found),
     )
 

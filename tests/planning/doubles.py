@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.logic import Atom
-from models.world import Outcomes, State, Variable
+from models.world import ExplicitWorld, Outcomes, State, Variable
+from models.world import Transitions as Listed
 
 Transitions = Mapping[int, Mapping[str, Mapping[int, float]]]
 """state -> action -> successor -> probability."""
@@ -90,3 +91,27 @@ def random_world(seed: int, *, states: int | None = None, atoms: str = "ab") -> 
             transitions[state][action] = {t: w / total for t, w in zip(dict.fromkeys(targets), weights, strict=True)}
     holds = {name: frozenset(s for s in range(size - 1) if pick.random() < 0.2) for name in atoms}
     return ArrayWorld(size, transitions, holds, initial=pick.choice(sorted(set(range(size)) - stuck) or [0]))
+
+
+def listed(world: ArrayWorld) -> ExplicitWorld:
+    """The same world with its transitions listed; without forbidden states."""
+    assert not world.forbidden
+    choices = [
+        (state, number, world.transitions[state][name])
+        for state in range(world.size)
+        for number, name in enumerate(world.actions)
+        if name in world.transitions.get(state, {})
+    ]
+    counts = np.bincount([state for state, _, _ in choices], minlength=world.size)
+    transitions = Listed(
+        first_choice=np.cumsum([0, *counts]).astype(np.int32),
+        action=np.array([number for _, number, _ in choices], dtype=np.int32),
+        cost=np.ones(len(choices)),
+        first_outcome=np.cumsum([0, *(len(move) for _, _, move in choices)]).astype(np.int32),
+        successor=np.array([target for _, _, move in choices for target in move], dtype=np.int32),
+        probability=np.array([chance for _, _, move in choices for chance in move.values()]),
+    )
+    labels = {name: np.array(sorted(states), dtype=np.int64) for name, states in world.holds.items()}
+    return ExplicitWorld(
+        world.name, initial=world.initial, actions=world.actions, labels=labels, transitions=transitions
+    )

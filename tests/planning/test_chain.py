@@ -9,9 +9,10 @@ import pytest
 
 from models.logic import parse
 from models.planning import NOTHING, WAIT, Policy, check, plan
+from models.planning import chain as module
 from models.planning.chain import Chain, explore
 from models.world import OomdpWorld, World, compile_world, load_environment, toys_spec
-from tests.planning.doubles import ArrayWorld, random_world
+from tests.planning.doubles import ArrayWorld, listed, random_world
 from tests.planning.random_tasks import navigation_task, toys_task
 
 FORMULAS = ("F (a & F b)", "G F a", "F G a | G F b", "!b U a", "G F a & F G !b", "F (a & X X b)")
@@ -61,8 +62,10 @@ def told(chain: Chain) -> dict[Node, dict[Node, float]]:
 
 def policies() -> list[tuple[World, Policy]]:
     made: list[tuple[World, Policy]] = []
-    for seed in range(60):
-        world = random_world(seed)
+    for seed in range(90):
+        world: World = random_world(seed)
+        if seed % 3 == 0:
+            world = listed(random_world(seed))
         policy = plan(world, parse(FORMULAS[seed % len(FORMULAS)])).policy
         if policy is not None:
             made.append((world, policy))
@@ -109,8 +112,28 @@ def test_what_is_cut_off_is_a_beginning_of_the_whole(known: list[tuple[World, Po
     assert cut >= 5
 
 
-def test_a_policy_that_does_what_is_not_possible_is_found_out() -> None:
-    world = ArrayWorld(3, {0: {"go": {1: 1.0}}, 1: {"on": {2: 1.0}}}, {"a": frozenset({2})})
+@pytest.mark.parametrize("stretch", [1, 2, 5])
+def test_a_chain_is_the_same_in_stretches_of_any_length(stretch: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    told_of: list[int] = []
+    for seed in range(0, 60, 3):
+        world = listed(random_world(seed))
+        policy = plan(world, parse(FORMULAS[seed % len(FORMULAS)])).policy
+        if policy is None:
+            continue
+        whole, before = explore(world, policy), len(told_of)
+        monkeypatch.setattr(module, "BUDGET", stretch)
+        again = explore(world, policy, progress=lambda *event: told_of.append(event[1]))
+        monkeypatch.undo()
+        assert told(again) == told(whole)
+        assert again.first.tolist() == whole.first.tolist()
+        assert len(told_of) - before >= len(whole.target) // (stretch + 3)
+
+
+@pytest.mark.parametrize("as_listed", [False, True])
+def test_a_policy_that_does_what_is_not_possible_is_found_out(as_listed: bool) -> None:
+    world: World = ArrayWorld(3, {0: {"go": {1: 1.0}}, 1: {"on": {2: 1.0}}}, {"a": frozenset({2})})
+    if as_listed:
+        world = listed(world)
     policy = plan(world, parse("F a")).policy
     assert policy is not None
     wrong = replace(policy, action=np.where(policy.action == 0, 1, policy.action))

@@ -111,7 +111,9 @@ def test_a_small_world_with_many_outcomes_is_refused_too() -> None:
     moves = {s: {"go": dict.fromkeys(range(60), 1 / 60)} for s in range(60)}
     with pytest.raises(ModelTooLargeError) as caught:
         plan(ArrayWorld(60, moves, {"a": frozenset({1})}), parse("F a"), options=Options(max_bytes=100_000))
-    assert (caught.value.unit, caught.value.estimate) == ("bytes", 60 * (2 * 64 + 60 * 12 * 5))
+    choices, outcomes = 60, 60 * 60
+    estimate = 60 * (2 * 16 + 160) + choices * (20 + 48) + outcomes * (12 + 28)
+    assert (caught.value.unit, caught.value.estimate) == ("bytes", estimate)
     assert [(place.pointer, place.detail) for place in caught.value.places] == [("", caught.value.detail)]
 
 

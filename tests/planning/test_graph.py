@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from models.planning import end_components as decomposition
+from models.planning import graph, qualities
 from models.planning.end_components import end_components
 from models.planning.graph import reach
 from models.planning.qualities import analyse
@@ -58,6 +60,32 @@ def test_possible_and_certain_are_the_fixed_points(formula: str) -> None:
         assert set(s.qualities.certain.nonzero()[0].tolist()) == certain, seed
         flat = [m <= certain for supports in moves(s).values() for m in supports]
         assert s.qualities.keeps_certain.tolist() == flat, seed
+
+
+@pytest.mark.parametrize("budget", [1, 7])
+def test_searches_come_to_the_same_in_stretches_of_any_length(budget: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    heard: list[int] = []
+    for seed in range(30):
+        s = stages(random_world(seed), FORMULAS[seed % len(FORMULAS)])
+        inside = s.qualities.possible & ~s.qualities.certain
+        components = end_components(s.product, s.graph, inside)
+        for module in (graph, qualities, decomposition):
+            monkeypatch.setattr(module, "BUDGET", budget)
+        found = analyse(s.product, s.graph, progress=lambda *event: heard.append(event[-1]))
+        again = end_components(s.product, s.graph, inside, progress=lambda *event: heard.append(event[-1]))
+        monkeypatch.undo()
+        for name in ("possible", "certain", "keeps_certain", "order"):
+            assert getattr(found, name).tolist() == getattr(s.qualities, name).tolist(), seed
+        assert [one.tolist() for one in again] == [one.tolist() for one in components], seed
+    assert len(heard) > 200
+
+
+def test_the_order_of_a_search_is_by_distance_and_then_by_number() -> None:
+    for seed in range(30):
+        s = stages(random_world(seed), "F (a & F b)")
+        found = reach(s.graph, np.array([s.product.accepted], dtype=np.int32))
+        reached = found.mask.nonzero()[0].tolist()
+        assert found.order.tolist() == sorted(reached, key=lambda node: (found.distance[node], node))
 
 
 def is_end_component(choices: dict[int, list[set[int]]], nodes: set[int]) -> bool:

@@ -97,6 +97,39 @@ def test_a_chain_settles() -> None:
             assert worth(chain, operator.numpy(x)) == pytest.approx(operator.numpy(x).tolist(), abs=1e-11)
 
 
+@pytest.mark.parametrize("size", [2, 3, 50])
+@pytest.mark.parametrize("stay", [0.9, 0.999])
+def test_what_is_extrapolated_converges_to_the_values_also_on_circles(size: int, stay: float) -> None:
+    circle = Choices(
+        first_choice=np.arange(size + 1, dtype=np.int32),
+        constant=np.ones(size),
+        first_outcome=np.arange(size + 1, dtype=np.int32),
+        successor=((np.arange(size) + 1) % size).astype(np.int32),
+        probability=np.full(size, stay),
+    )
+    x = (operator := KernelOperator(circle)).vector(0.0)
+    x[::2] = 10.0
+    sweeps = next(sweep for sweep in range(10_000) if operator.improve(x) <= 1e-11)
+    assert x == pytest.approx(1.0 / (1.0 - stay), rel=1e-8)
+    assert sweeps < 3_000  # about what it takes without
+
+
+def test_extrapolation_saves_sweeps_where_values_creep() -> None:
+    size, draw = 200, np.random.default_rng(0)
+    slow = Choices(
+        first_choice=np.arange(size + 1, dtype=np.int32),
+        constant=np.ones(size),
+        first_outcome=np.arange(0, 3 * size + 1, 3, dtype=np.int32),
+        successor=draw.integers(0, size, 3 * size).astype(np.int32),
+        probability=np.full(3 * size, 0.98 / 3),
+    )
+    operator = KernelOperator(slow)
+    x = operator.vector(0.0)
+    sweeps = next(sweep for sweep in range(10_000) if operator.improve(x) <= 1e-9)
+    assert x == pytest.approx(50.0, rel=1e-8)
+    assert sweeps < 12
+
+
 def test_ties_go_to_the_first_choice() -> None:
     choices = Choices(
         first_choice=np.array([0, 3], dtype=np.int32),
