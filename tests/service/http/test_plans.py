@@ -250,7 +250,7 @@ def test_refusals(
 
 
 def test_a_plan_that_takes_too_long_is_stopped(client: httpx.Client) -> None:
-    large = toys_spec(columns=4, rows=4, toys=[("sphere", "red"), ("cube", "blue")], slip=0.1)
+    large = toys_spec(columns=5, rows=5, toys=[("sphere", "red"), ("cube", "blue")], slip=0.1)
     task = "G F holding(sphere) & G F holding(cube)"
     body = {"ltl": task, "environment_spec": large, "options": {"timeout_s": 0.2}}
     check_problem(client.post("/plan", json=body), "out-of-time", 422)
