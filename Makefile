@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz check format openapi train evaluate bench bench-planning clean
+.PHONY: serve test fuzz check format openapi train evaluate bench bench-language bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -39,6 +39,9 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.translate
 	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.hostile
+
+bench-language: $(VENV)/.dev  # commands in people's own words
+	$(BIN)/python -m benchmarks.language
 
 bench-planning: $(VENV)/.dev  # against other planners; about half an hour
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'

@@ -77,9 +77,9 @@ def _default() -> Translator:
     import torch
 
     torch.set_num_threads(1)  # the networks are small: a second thread makes a translation slower
-    from models.language import SpanTranslator
+    from models.language import ComposedTranslator, SpanTranslator
 
-    return SpanTranslator.load()
+    return ComposedTranslator.load(SpanTranslator.load())
 
 
 def _cq_copynet() -> Translator:

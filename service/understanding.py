@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from models.errors import CqltlError
-from models.language import BEAM_WIDTH, TaughtTranslator
+from models.language import BEAM_WIDTH, ComposedTranslator, TaughtTranslator
 from models.language.reading import (
     AMBIGUOUS,
     GROUNDED,
@@ -76,9 +76,13 @@ def understand(
         said = services.translators.formulas(translator).translate(text, candidates=wanted)
         formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
         return tuple(map(_of_formula, formulas[:candidates]))
-    learned = services.translators.queries(translator).translate(text, candidates=wanted)
+    chosen = services.translators.queries(translator)
     with services.store.read() as transaction:
-        taught = _taught(transaction).translate(text, candidates=BEAM_WIDTH) if translator == DEFAULT else ()
+        known = _taught(transaction) if translator == DEFAULT else TaughtTranslator(())
+        if isinstance(chosen, ComposedTranslator):
+            chosen = chosen.knowing(known)
+        taught = known.translate(text, candidates=BEAM_WIDTH)
+        learned = chosen.translate(text, candidates=wanted)
         tasks = {task.task for found in (*learned, *taught) for _, task in found.query.tasks}
         templates = transaction.templates.among(tasks)
 

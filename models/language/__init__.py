@@ -4,6 +4,7 @@
 What is only needed for that, and the paper's systems (`models.language.copynet`), is not imported here.
 """
 
+from models.language.composition import ComposedTranslator
 from models.language.errors import TextTooLongError, TrainingError, VocabularyError, WeightsError
 from models.language.spans import SpanTranslator
 from models.language.tagging import part_of_speech
@@ -15,6 +16,7 @@ __all__ = [
     "BEAM_WIDTH",
     "MAX_CHARACTERS",
     "MAX_WORDS",
+    "ComposedTranslator",
     "ExampleArgumentNotFoundError",
     "ExampleTooGeneralError",
     "SpanTranslator",

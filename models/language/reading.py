@@ -51,13 +51,14 @@ class Reading:
     """A contextual query that a command may say.
 
     `grounded` is what it means in the environment and `refusal` why it means nothing there; both are None without an
-    environment, unless the query has the wrong number of arguments.
+    environment, unless the query has the wrong number of arguments. `senseless` is how many of its tasks mean nothing.
     """
 
     query: Query
     confidence: float
     grounded: GroundedQuery | None = None
     refusal: CqltlError | None = None
+    senseless: int = 1
 
     @property
     def weight(self) -> float:
@@ -68,7 +69,7 @@ class Reading:
         elif isinstance(self.refusal, AmbiguousGroundingError):
             weight, candidates = AMBIGUOUS, list(self.refusal.candidates)
         else:
-            return SENSELESS
+            return SENSELESS**self.senseless
         return weight * MISSPELT if any(candidate.misspelt is not None for candidate in candidates) else weight
 
 
@@ -167,8 +168,23 @@ def _read(
             check_arity(templates[task.task], task)
         grounded = None if environment is None else evaluate_query(query, ground)
     except CqltlError as error:
-        return Reading(query, confidence, None, error)
+        return Reading(query, confidence, None, error, max(1, _senseless(query, ground)))
     return Reading(query, confidence, grounded)
+
+
+def _senseless(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> int:
+    """How many tasks of a composed query cannot be grounded."""
+    if isinstance(query, ContextualQuery):
+        return 1
+    count = 0
+    for _, task in query.tasks:
+        try:
+            ground(task)
+        except AmbiguousGroundingError:
+            continue
+        except CqltlError:
+            count += 1
+    return count
 
 
 def _resolve(formula: Formula, confidence: float, environment: Environment | None) -> FormulaReading:

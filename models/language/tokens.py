@@ -20,6 +20,7 @@ MAX_WORDS = 200
 """Longest text of a command, in words; the longest of the published human commands has about 75."""
 
 _RUN = re.compile(r"""[^\s,;:!?"“”„«»()\[\]{}<>…—–¡¿]+""")
+_MARK = re.compile(r"[,;:.!?]")
 _DROPPED = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
@@ -48,6 +49,19 @@ def tokenize(text: str) -> tuple[Token, ...]:
 def words(text: str) -> tuple[str, ...]:
     """The folded words of a text; raises as `tokenize` does."""
     return tuple(token.text for token in tokenize(text))
+
+
+def marked_words(text: str) -> tuple[str, ...]:
+    """The folded words of a text and the marks `, ; : . ! ?` between them; raises as `tokenize` does."""
+    tokens = tokenize(text)
+    inside = {place for token in tokens for place in range(token.start, token.end)}
+    marks = [Token(m.group(), m.start(), m.end()) for m in _MARK.finditer(text) if m.start() not in inside]
+    return tuple(token.text for token in sorted([*tokens, *marks], key=lambda token: token.start))
+
+
+def is_mark(word: str) -> bool:
+    """Whether it is one of the marks of `marked_words`."""
+    return _MARK.fullmatch(word) is not None
 
 
 def find(phrase: Sequence[str], text: Sequence[str]) -> int | None:

@@ -1,7 +1,8 @@
 """Train everything that ships, or one part of it.
 
-    python -m models.language.train                  the default translator, and the paper's systems on both domains
-    python -m models.language.train default --seed 1 --output FOLDER [--no-lexicon]
+    python -m models.language.train                  the default translator's two networks, and the paper's systems
+    python -m models.language.train default --seed 1 --output FOLDER
+    python -m models.language.train composition
     python -m models.language.train paper --domain navigation --hide 0.25 --output FOLDER
 
 Writes, into the output folder, for each model `NAME.safetensors` (the tensors) and `NAME.json` (vocabulary, sizes,
@@ -20,9 +21,12 @@ from pathlib import Path
 import torch
 
 from models.language import copynet
+from models.language.composition import NAME
+from models.language.composition.lessons import SETTINGS, CompositionLessons
 from models.language.dataset import Domain
 from models.language.spans import DEFAULT_NAME, save_model
 from models.language.spans import training as spans
+from models.language.spans.lessons import Lessons
 
 SHIPPED = Path(__file__).parent / "weights"
 
@@ -32,7 +36,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = _read_options(arguments)
     torch.set_num_threads(1)  # the networks are small: a second thread makes every step slower
     if options.what in ("default", "all"):
-        train_default(_span_settings(options), seed=options.seed, folder=options.output)
+        train_default(_chosen(spans.Settings(), options), seed=options.seed, folder=options.output)
+    if options.what in ("composition", "all"):
+        train_composition(_chosen(SETTINGS, options), seed=options.seed, folder=options.output)
     if options.what in ("paper", "all"):
         domains = tuple(Domain) if options.domain == "both" else (Domain(options.domain),)
         settings = _copynet_settings(options)
@@ -40,23 +46,32 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def train_default(settings: spans.Settings, *, seed: int, folder: Path) -> None:
-    """Train the default translator and write it with its curve."""
+    """Train the default translator's network of single tasks, and write it with its curve."""
+    _train(Lessons.load(seed=seed), settings, seed=seed, folder=folder, name=DEFAULT_NAME)
+
+
+def train_composition(settings: spans.Settings, *, seed: int, folder: Path) -> None:
+    """Train the network that finds the clauses of a command, and write it with its curve."""
+    _train(CompositionLessons.load(seed=seed), settings, seed=seed, folder=folder, name=NAME)
+
+
+def _train(course: spans.Course, settings: spans.Settings, *, seed: int, folder: Path, name: str) -> None:
     curve: list[spans.Epoch] = []
 
     def log(epoch: spans.Epoch) -> None:
         curve.append(epoch)
-        print("default", " ".join(f"{key} {value}" for key, value in epoch.items()))
+        print(name, " ".join(f"{key} {value}" for key, value in epoch.items()))
 
-    model = spans.train(settings, seed=seed, log=log)
-    save_model(model, folder)
+    model = spans.train(course, settings, seed=seed, log=log)
+    save_model(model, folder, name=name)
     record = {"training": dict(model.training), "epochs": curve}
-    (folder / f"{DEFAULT_NAME}-curve.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-    print(f"default: temperature {model.temperature:.3f}")
+    (folder / f"{name}-curve.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    print(f"{name}: temperature {model.temperature:.3f}")
 
 
-def _span_settings(options: argparse.Namespace) -> spans.Settings:
-    given = {"lexicon": not options.no_lexicon}
-    return spans.Settings(**given) if options.epochs is None else spans.Settings(**given, epochs=options.epochs)
+def _chosen(usual: spans.Settings, options: argparse.Namespace) -> spans.Settings:
+    epochs = usual.epochs if options.epochs is None else options.epochs
+    return replace(usual, epochs=epochs, share=options.share)
 
 
 def _copynet_settings(options: argparse.Namespace) -> copynet.Settings:
@@ -67,11 +82,11 @@ def _copynet_settings(options: argparse.Namespace) -> copynet.Settings:
 
 def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Train the translators.")
-    parser.add_argument("what", nargs="?", choices=["all", "default", "paper"], default="all")
+    parser.add_argument("what", nargs="?", choices=["all", "default", "composition", "paper"], default="all")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--epochs", type=int, help="instead of the usual number of each")
+    parser.add_argument("--share", type=float, default=1.0, help="default, composition: part of the texts of an epoch")
     parser.add_argument("--output", type=Path, default=SHIPPED, help="folder to write to")
-    parser.add_argument("--no-lexicon", action="store_true", help="default: without word vectors, to see their worth")
     parser.add_argument("--domain", choices=[*Domain, "both"], default="both", help="paper: which T to train on")
     parser.add_argument("--hide", type=float, help="paper: part of the words that are shown as unknown words")
     parser.add_argument("--generate", action="store_true", help="paper: let arguments be generated, not only copied")

@@ -135,6 +135,7 @@ def _question(translated: Translated) -> QuestionOut | None:
     if not isinstance(refusal, AmbiguousGroundingError):
         return None
     return QuestionOut(
+        part=refusal.places[0].pointer.rpartition("/arguments/")[0] if refusal.places else "",
         argument=refusal.position,
         text=f"which {refusal.phrase}?",
         choices=list(refusal.choices),

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from models.language import TextTooLongError
-from models.language.tokens import MAX_CHARACTERS, MAX_WORDS, find, tokenize, words
+from models.language.tokens import MAX_CHARACTERS, MAX_WORDS, find, is_mark, marked_words, tokenize, words
 
 
 @pytest.mark.parametrize(
@@ -65,3 +65,18 @@ def test_too_long(text: str) -> None:
 def test_the_longest_allowed() -> None:
     assert len(tokenize("go " * MAX_WORDS)) == MAX_WORDS
     assert len(tokenize("a" * MAX_CHARACTERS)) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Zoo, yes. Gallery, never!", "zoo , yes . gallery , never !"),
+        ("go to H&M (2nd floor); wait: at 3 a.m.", "go to h&m 2nd floor ; wait : at 3 a.m ."),
+        ("the yo-yo", "the yo-yo"),
+        ("...", ". . ."),
+        ("", ""),
+    ],
+)
+def test_marks_stand_between_the_words(text: str, expected: str) -> None:
+    assert marked_words(text) == tuple(expected.split())
+    assert tuple(word for word in marked_words(text) if not is_mark(word)) == words(text)

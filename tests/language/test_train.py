@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 import torch
 
-from models.language import SpanTranslator, TrainingError, train
+from models.language import TrainingError, train
+from models.language.composition import NAME
+from models.language.composition.lessons import SETTINGS
 from models.language.copynet import CqCopyNetTranslator
-from models.language.spans import training
+from models.language.spans import DEFAULT_NAME, load_model, training
 
 
 @pytest.fixture(autouse=True)
@@ -21,31 +23,21 @@ def _one_thread() -> Iterator[None]:
     torch.set_num_threads(threads)
 
 
-@pytest.fixture
-def _small_epochs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Epochs of a hundred texts, so that a run takes seconds."""
-    usual = training.Lessons.epoch
-    monkeypatch.setattr(
-        training.Lessons,
-        "epoch",
-        lambda lessons, generator, **_: usual(lessons, generator, commands=10, refusals=30),
-    )
-
-
-@pytest.mark.usefixtures("_small_epochs")
-def test_the_default_translator(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(("what", "name"), [("default", DEFAULT_NAME), ("composition", NAME)])
+def test_the_default_translator(what: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for folder in ("a", "b"):
-        train.main(["default", "--epochs", "2", "--seed", "7", "--output", str(tmp_path / folder)])
-    names = ["cq-spans-curve.json", "cq-spans.json", "cq-spans.safetensors"]
+        given = ["--epochs", "2", "--seed", "7", "--share", "0.02", "--output", str(tmp_path / folder)]
+        train.main([what, *given])
+    names = [f"{name}-curve.json", f"{name}.json", f"{name}.safetensors"]
     assert sorted(path.name for path in (tmp_path / "a").iterdir()) == names
-    for name in names:
-        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+    for file in names:
+        assert (tmp_path / "a" / file).read_bytes() == (tmp_path / "b" / file).read_bytes()
     record = json.loads((tmp_path / "a" / names[0]).read_text())
     assert record["training"]["seed"] == 7
     assert [epoch["epoch"] for epoch in record["epochs"]] == [1, 2]
     assert record["epochs"][1]["loss"] < record["epochs"][0]["loss"]
     assert "epoch 2" in capsys.readouterr().out
-    SpanTranslator.load(tmp_path / "a").translate("Pickup the sphere")
+    load_model(tmp_path / "a", name=name)
 
 
 def test_the_systems_of_the_paper(tmp_path: Path) -> None:
@@ -58,9 +50,9 @@ def test_the_systems_of_the_paper(tmp_path: Path) -> None:
 
 def test_what_ships_is_what_the_settings_say() -> None:
     """Weights that were made with other settings than those of the code could not be made again."""
-    made = SpanTranslator.load().model.training
-    settings = training.Settings()
-    assert made == {"seed": 0, **{name: getattr(settings, name) for name in settings.__dataclass_fields__}}
+    for name, settings in ((DEFAULT_NAME, training.Settings()), (NAME, SETTINGS)):
+        expected = {"seed": 0, **{field: getattr(settings, field) for field in settings.__dataclass_fields__}}
+        assert load_model(name=name).training == expected
     for model in (*CqCopyNetTranslator.load().models,):
         usual = train.copynet.Settings()
         expected = {name: getattr(usual, name) for name in usual.__dataclass_fields__}

@@ -19,6 +19,7 @@ from models.language.dataset.paraphrases import paraphrases
 from models.language.dataset.speech import frames, is_imperative, said
 from models.language.dataset.split import split
 from models.language.tokens import words
+from models.language.translation import NEGATIONS
 
 PLACES = ("first", "second", "third")
 SPOKEN = {Half.TRAINING: 16, Half.HELD_OUT: 6}
@@ -51,29 +52,33 @@ class NoTask:
 
 
 @cache
-def no_task(*, seed: int = 0) -> NoTask:
+def no_task(*, seed: int = 0, joined: bool = True) -> NoTask:
     """The texts, the same for the same seed: sentences; frames filled with words; commands that are negated, asked
     about, made another task by a condition or a clause, or joined; commands cut short or said backwards; letters
     without sense. Only words of the seen vocabularies and open words for training are spoken of.
+
+    Without `joined` only those that ask for nothing at all, neither one thing nor several.
     """
-    training = _texts(Half.TRAINING, seed)
+    training = _texts(Half.TRAINING, seed, joined)
     read = {words(text) for text in training}  # two commands may be the same when cut short
-    return NoTask(training, tuple(text for text in _texts(Half.HELD_OUT, seed) if words(text) not in read))
+    return NoTask(training, tuple(text for text in _texts(Half.HELD_OUT, seed, joined) if words(text) not in read))
 
 
-def _texts(part: Half, seed: int) -> tuple[str, ...]:
+def _texts(part: Half, seed: int, joined: bool) -> tuple[str, ...]:
     data, generator = _read(), random.Random(f"no task/{seed}/{part}")
     verbs = half(data.verbs, part)
     asked = half(data.frames, part)
     texts = list(half(data.sentences, part))
-    texts.extend(_filled(frame, verbs, generator) for frame in asked for _ in range(SPOKEN[part] // 2))
-    acts = [frame for frame in asked if "{verb}" in frame]
-    texts.extend(_filled(generator.choice(acts), verbs, generator, verb) for verb in verbs for _ in range(2))
-    texts.extend(_spoken(data, part, generator))
+    if joined:
+        texts.extend(_filled(frame, verbs, generator) for frame in asked for _ in range(SPOKEN[part] // 2))
+        acts = [frame for frame in asked if "{verb}" in frame]
+        texts.extend(_filled(generator.choice(acts), verbs, generator, verb) for verb in verbs for _ in range(2))
+    texts.extend(_spoken(data, part, generator, joined))
     count = len(texts) // 12
     polite = (*frames(part).calls, *frames(part).closings)
     texts = [said(generator.choice(polite), text) if generator.random() < POLITE else text for text in texts]
-    texts.extend(_spoiled_commands(generator, count, part, seed))
+    if joined:
+        texts.extend(_spoiled_commands(generator, count, part, seed))
     texts.extend(_gibberish(generator) for _ in range(count))
     return tuple(dict.fromkeys(texts))
 
@@ -94,21 +99,19 @@ def _another(choices: Sequence[str], taken: Collection[str], generator: random.R
     return choice
 
 
-def _spoken(data: _NoTaskData, part: Half, generator: random.Random) -> list[str]:
+def _spoken(data: _NoTaskData, part: Half, generator: random.Random, joined: bool) -> list[str]:
     """Commands inside what makes no task of them."""
-    groups = [
-        (data.around, _tasks()),
-        (data.conditions, _tasks()),
-        (data.with_it, _PICKUPS),
-        (data.there, _TOURS),
-    ]
+    around = data.around if joined else [frame for frame in data.around if NEGATIONS.isdisjoint(words(frame))]
+    groups = [(around, _tasks())]
+    if joined:
+        groups += [(data.conditions, _tasks()), (data.with_it, _PICKUPS), (data.there, _TOURS)]
     texts = [
         said(frame, _command(generator, wanted).text)
         for entries, wanted in groups
         for frame in half(entries, part)
         for _ in range(SPOKEN[part])
     ]
-    for frame in half(data.joins, part) * 2:
+    for frame in half(data.joins, part) * 2 if joined else ():
         texts.extend(said(frame, *_two_commands(generator)) for _ in range(SPOKEN[part]))
     return texts
 

@@ -93,7 +93,7 @@ def _sets(domain: Domain, seed: int, settings: Settings) -> Iterator[CommandSet]
 
 
 def _texts_without_a_task(seed: int, settings: Settings) -> Sequence[str]:
-    texts = no_task(seed=seed).held_out
+    texts = no_task(seed=seed, joined=False).held_out
     return texts if settings.refusals is None else random.Random(seed).sample(texts, settings.refusals)
 
 

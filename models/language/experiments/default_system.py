@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from models.language.composition import ComposedTranslator
 from models.language.dataset import Domain
 from models.language.errors import WeightsError
 from models.language.experiments.answer import Answer
@@ -20,6 +21,7 @@ from models.language.spans import (
     load_model,
     save_model,
 )
+from models.language.spans.lessons import Lessons
 from models.language.spans.training import Settings, train
 from models.language.translation import BEAM_WIDTH, Translation, Translator
 from models.queries import ContextualQuery, Query, Template
@@ -100,12 +102,12 @@ def trained_system(seed: int, settings: Settings, runs: Path, done: Callable[[st
     name = f"default-{seed}"
     model = _made_so(None, DEFAULT_NAME, record) or _made_so(runs, name, record)
     if model is None:
-        model = train(settings, seed=seed, log=lambda _: done(f"train {name}"))
+        model = train(Lessons.load(seed=seed), settings, seed=seed, log=lambda _: done(f"train {name}"))
         save_model(model, runs, name=name)
     else:
         for _ in range(settings.epochs):
             done(f"read {name}")
-    return DefaultSystem.of(SpanTranslator.of(model))
+    return DefaultSystem.of(ComposedTranslator.load(SpanTranslator.of(model)))
 
 
 def _made_so(folder: Path | None, name: str, record: Mapping[str, object]) -> SpanModel | None:

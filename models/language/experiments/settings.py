@@ -52,7 +52,7 @@ class Settings:
             self,
             seeds=self.seeds[:1],
             copynet=replace(self.copynet, epochs=2),
-            spans=replace(self.spans, epochs=1, commands=16, refusals=32),
+            spans=replace(self.spans, epochs=1, share=0.03),
             taught=200,
             most=4,
             open_world=40,

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import torch
 from torch import Tensor
 
 from models.language.dataset import Example
-from models.language.spans.lexicon import Lexicon
+from models.language.encoder import Encoder
 from models.language.spans.network import SpanConfig, SpanNet, TextBatch, log_likelihood
 from models.language.spans.tags import Span, tags_of
 from models.language.tokens import words
@@ -42,6 +42,13 @@ class Item:
         """The same, known to be a frame around `inner`."""
         before = min(self.mentions)[0][0] - min(inner.mentions)[0][0]
         return replace(self, frame=(before, len(self.text) - len(inner.text) - before))
+
+    def within(self, before: Sequence[str], after: Sequence[str]) -> Item:
+        """The same in a frame of words."""
+        shift = len(before)
+        moved = tuple(tuple((begin + shift, end + shift) for begin, end in spans) for spans in self.mentions)
+        start, stop = self.frame
+        return Item((*before, *self.text, *after), self.task, moved, (start + shift, stop + len(after)))
 
     def hidden(self, rate: float, frame_rate: float, generator: random.Random) -> list[bool]:
         """Which words lose their embedding: each with probability `rate`, and the whole frame with `frame_rate`."""
@@ -83,17 +90,25 @@ def batches(items: Sequence[Item], size: int, generator: random.Random) -> Itera
 def likelihood(
     network: SpanNet,
     items: Sequence[Item],
-    lexicon: Lexicon,
+    encoder: Encoder,
     *,
     hidden: Sequence[Sequence[bool]] | None = None,
     temperature: float = 1.0,
 ) -> Tensor:
     """The log-probabilities [B] of the items' readings; `hidden` as in `TextBatch.of`."""
+    return likelihoods(network, items, encoder, hidden=hidden)(temperature)
+
+
+def likelihoods(
+    network: SpanNet, items: Sequence[Item], encoder: Encoder, *, hidden: Sequence[Sequence[bool]] | None = None
+) -> Callable[[float], Tensor]:
+    """As `likelihood`, by temperature: the texts are read once for all temperatures."""
     config = network.config
     numbers = {word: number for number, word in enumerate(config.words, start=1)}
-    batch = TextBatch.of([item.text for item in items], numbers, lexicon, hidden=hidden)
+    batch = TextBatch.of([item.text for item in items], numbers, encoder, hidden=hidden)
     tasks, tags = _answers(items, config, batch.numbers.shape[1])
-    return log_likelihood(network, network(batch), batch, tasks, tags, temperature=temperature)
+    scores = network(batch)
+    return lambda temperature: log_likelihood(network, scores, batch, tasks, tags, temperature=temperature)
 
 
 def _answers(items: Sequence[Item], config: SpanConfig, width: int) -> tuple[Tensor, Tensor]:

@@ -20,6 +20,7 @@ from models.language.dataset import (
     by_task,
     fill,
     framed,
+    frames,
     misspell,
     no_task,
     paraphrases,
@@ -27,11 +28,32 @@ from models.language.dataset import (
     redetermined,
     split,
 )
+from models.language.dataset.composition import Leaf, leaves, slot_elements
 from models.language.spans.items import Item
 from models.language.spans.names import Names, names
+from models.language.spans.tags import Span
 from models.language.tokens import words
 from models.language.translation import NEGATIONS
 
+COMMANDS, REFUSALS = 400, 2000
+"""Texts of each task class and of none in an epoch; T has 23 of navigate_one and 458 of navigate_three."""
+OTHER_JOBS = 400
+"""Clauses in an epoch that are none of the task classes: "mop the floor"."""
+CLAUSES = 0.25
+"""Part of the commands of some classes that are clauses in any grammatical form."""
+CLAUSE_SLOTS = {
+    "place": "location",
+    "object": "object",
+    "object2": "object",
+    "container": "container",
+    "color": "color",
+}
+NAMED = 0.2
+"""Part of the clauses about going that only name the place."""
+PRONOUN = 0.1
+PRONOUNS = {"place": ("there", "there", "it"), "object": ("it", "it", "it", "them", "one")}
+DETERMINERS = ("the",) * 12 + ("my", "a", "that", "", "", "")
+"""What stands before a name in a clause."""
 RENAMED = 0.7
 """Part of T's commands that are drawn with other things in them."""
 FRAMED = 0.4
@@ -50,14 +72,14 @@ class Lessons:
         training: T's commands for fitting, by task class.
         validation: T's commands that are only looked at.
         refused, held_out: texts that no task fits, for fitting and for looking at.
-        tasks: the task classes with their argument slots, in order.
+        classes: the task classes with their argument slots, in order.
     """
 
     training: Mapping[str, Sequence[Example]]
     validation: Sequence[Example]
     refused: Sequence[Item]
     held_out: Sequence[Item]
-    tasks: Mapping[str, tuple[Domain, tuple[str, ...]]]
+    classes: Mapping[str, tuple[Domain, tuple[str, ...]]]
     names: Names
 
     @classmethod
@@ -68,22 +90,38 @@ class Lessons:
         lessons = cls(
             training=by_task(example for part in splits for example in part.training),
             validation=[example for part in splits for example in part.validation],
-            refused=[Item(spoken) for text in refused.training if (spoken := words(text))],
+            refused=[Item(spoken) for text in refused.training if (spoken := words(text)) and not _names_only(spoken)],
             held_out=[Item(spoken) for text in refused.held_out if (spoken := words(text))],
-            tasks={task.name: (domain, task.arguments) for domain in Domain for task in read_corpus(domain).tasks},
+            classes={task.name: (domain, task.arguments) for domain in Domain for task in read_corpus(domain).tasks},
             names=names(),
         )
         content = [word for word in spoken_words(lessons) if word not in STOP_WORDS and word not in NEGATIONS]
         return replace(lessons, names=replace(lessons.names, spoken=content))
 
-    def epoch(self, generator: random.Random, *, commands: int, refusals: int) -> list[Item]:
-        """Texts for one pass: `commands` of each task class, and `refusals` that no task fits."""
-        items = [self.command(task, generator) for task in self.tasks for _ in range(commands)]
-        items += generator.choices(self.refused, k=refusals)
+    @property
+    def tasks(self) -> tuple[tuple[str, int], ...]:
+        """The task classes with their numbers of arguments."""
+        return tuple((task, len(slots)) for task, (_, slots) in self.classes.items())
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """See `spoken_words`."""
+        return spoken_words(self)
+
+    def epoch(self, generator: random.Random) -> list[Item]:
+        """Texts for one pass: COMMANDS of each task class, and REFUSALS that no task fits."""
+        items = [self.command(task, generator) for task in self.classes for _ in range(COMMANDS)]
+        items += generator.choices(self.refused, k=REFUSALS)
+        items += [self.other_job(generator) for _ in range(OTHER_JOBS)]
         return [misspelled(item, generator) if generator.random() < MISSPELLED else item for item in items]
 
     def command(self, task: str, generator: random.Random) -> Item:
         """A command of a task class."""
+        known = _clauses(task)
+        if known and generator.random() < CLAUSES:
+            if task == "navigate_one" and generator.random() < NAMED:
+                return self._named(generator)
+            return self._clause(generator.choice(known), task, generator)
         if generator.random() < 0.5:
             example = generator.choice(self.training[task])
             rename = generator.random() < RENAMED
@@ -100,8 +138,54 @@ class Lessons:
         """The same command of other things."""
         assert item.task is not None
         apart = not any(end == begin for _, end in item.mentions[-1] for begin, _ in item.mentions[0])
-        slots = self.tasks[item.task][1]
+        slots = self.classes[item.task][1]
         return item.renamed([self.names.draw(slot, generator, apart=apart) for slot in slots])
+
+    def other_job(self, generator: random.Random) -> Item:
+        """A clause that is none of the task classes."""
+        return self._clause(generator.choice(_clauses(None)), None, generator)
+
+    def _clause(self, leaf: Leaf, task: str | None, generator: random.Random) -> Item:
+        """A clause in one of its forms, as it stands within a longer command: "been to the zoo" """
+        text: list[str] = []
+        mentions: dict[str, Span] = {}
+        form = generator.choice(list(leaf.forms.values())) if generator.random() < 0.6 else leaf.do
+        previous = ""
+        for element in slot_elements(form):
+            if isinstance(element, str):
+                text.append(element)
+                continue
+            (slot,) = element
+            pronoun = PRONOUNS.get(slot)
+            if pronoun is not None and task != "pickup_colored" and generator.random() < PRONOUN:
+                if slot == "place" and text and text[-1] in ("to", "at", "in"):
+                    text.pop()
+                mentions[slot] = (len(text), len(text) + 1)
+                text.append(generator.choice(pronoun))
+                continue
+            if previous != "color":
+                text += [word for word in (generator.choice(DETERMINERS),) if word]
+            kind = generator.choice(["object", "container"]) if task == "move_to" else CLAUSE_SLOTS[slot]
+            name = self.names.draw(kind, generator)
+            mentions[slot] = (len(text), len(text) + len(name))
+            text += name
+            previous = slot
+        if task is None:
+            return Item(tuple(text))
+        order = ("object", "color") if task == "pickup_colored" else leaf.slots
+        item = Item(tuple(text), task, tuple((mentions[slot],) for slot in order))
+        if form == leaf.do and generator.random() < FRAMED:
+            before, _, after = generator.choice(frames("training").requests).partition("{}")
+            item = item.within(words(before), words(after))
+        return item
+
+    def _named(self, generator: random.Random) -> Item:
+        """A place alone, to be gone to: "the bakery, please"."""
+        name = self.names.draw("location", generator)
+        before = generator.choice([(), (), ("the",), ("the",), ("to", "the"), ("off", "to", "the")])
+        after = generator.choice([(), (), (), ("please",), ("now",), ("quick",)])
+        text = (*before, *name, *after)
+        return Item(text, "navigate_one", (((len(before), len(before) + len(name)),),))
 
     def checks(self, generator: random.Random) -> list[Item]:
         """What a network is judged by between epochs: commands that it was not fitted to, as they are, of other things,
@@ -113,9 +197,19 @@ class Lessons:
 
     def _paraphrase(self, task: str, generator: random.Random) -> Example:
         """A wording beyond those of T, filled with whatever; its arguments are renamed later."""
-        domain, slots = self.tasks[task]
+        domain, slots = self.classes[task]
         wording = generator.choice(paraphrases(domain, "training")[task])
         return fill(domain, task, wording, {slot: f"thing{number}" for number, slot in enumerate(slots)})
+
+
+def _names_only(spoken: Sequence[str]) -> bool:
+    """Whether a text is no more than a name: "the museum", which may be where to go."""
+    return len(spoken) <= 4 and spoken[0] in ("the", "a", "an", "my", "to")
+
+
+def _clauses(task: str | None) -> list[Leaf]:
+    """The clauses that say a task class; what says `navigate_one` of a place says `move_to` of a thing."""
+    return [leaf for leaf in leaves() if leaf.task == ("navigate_one" if task == "move_to" else task)]
 
 
 def misspelled(item: Item, generator: random.Random) -> Item:
@@ -136,7 +230,7 @@ def spoken_words(lessons: Lessons) -> tuple[str, ...]:
     """
     generator = random.Random(0)
     commands = [Item.command(example) for group in lessons.training.values() for example in group]
-    for task, (domain, slots) in lessons.tasks.items():
+    for task, (domain, slots) in lessons.classes.items():
         for wording in paraphrases(domain, "training")[task]:
             example = fill(domain, task, wording, dict.fromkeys(slots, "thing"))
             commands += [Item.command(framed(example, generator, part="training")) for _ in range(20)]

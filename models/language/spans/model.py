@@ -39,7 +39,7 @@ class _Data(BaseModel):
 class _NetworkData(_Data):
     words: tuple[str, ...]
     tasks: tuple[tuple[str, int], ...] = Field(min_length=1)
-    lexical: int = Field(ge=1, le=4096)
+    vector: int = Field(ge=1, le=4096)
     embedding: int = Field(ge=1, le=4096)
     projection: int = Field(ge=1, le=4096)
     encoder: int = Field(ge=1, le=4096)

@@ -1,11 +1,12 @@
 """The network of the default translator: which task a text asks for, and which of its words name the arguments.
 
 Words are known by what they do, not by what they name: those of wordings ("put", "then", "the") have embeddings of
-their own, all others only the vector of the lexicon. So a phrase that training never held is read like one that it
-did, which is lifting (paper, § Approach) applied to the words. A bidirectional GRU reads both; one head scores the
-task classes, another the tags of every word under each, and a conditional random field per task class joins the tags.
+their own, all others only what the encoder says of them in their sentence. So a phrase that training never held is
+read like one that it did, which is lifting (paper, § Approach) applied to the words. A bidirectional GRU reads both;
+one head scores the task classes, another the tags of every word under each, and a conditional random field per task
+class joins the tags.
 
-Shapes: B texts, S words, D lexicon, H states, K task classes, L tags.
+Shapes: B texts, S words, D encoder, H states, K task classes, L tags.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn.utils.rnn import pack_padded_sequence, pad_packed_sequence
 
+from models.language.encoder import Encoder
 from models.language.spans.crf import log_partition, score
-from models.language.spans.lexicon import Lexicon
 from models.language.spans.tags import MAX_ARGUMENTS, TAGS, forbidden_moves
 
 
@@ -31,14 +32,14 @@ class SpanConfig:
         words: the words with embeddings of their own, by number from 1; 0 stands for all others.
         tasks: the task classes, in the order of the network's outputs, with their numbers of arguments. One output
             more, the last, says that no task fits.
-        lexical: D.
+        vector: D.
     """
 
     words: tuple[str, ...]
     tasks: tuple[tuple[str, int], ...]
-    lexical: int
+    vector: int
     embedding: int = 48
-    projection: int = 64  # of the lexicon's vectors
+    projection: int = 96  # of the encoder's vectors
     encoder: int = 96  # in each direction and layer
     layers: int = 2
     dropout: float = 0.25
@@ -68,21 +69,19 @@ class TextBatch:
         cls,
         texts: Sequence[Sequence[str]],
         numbers: Mapping[str, int],
-        lexicon: Lexicon,
+        encoder: Encoder,
         *,
         hidden: Sequence[Sequence[bool]] | None = None,
     ) -> Self:
         """Folded words as tensors; each text has a word. `hidden[i][j]` takes the embedding of a word j away."""
         width = max(len(text) for text in texts)
         ids = torch.zeros(len(texts), width, dtype=torch.int64)
-        vectors = torch.zeros(len(texts), width, lexicon.size)
         for row, text in enumerate(texts):
             known = [numbers.get(word, 0) for word in text]
             if hidden is not None:
                 known = [0 if absent else number for number, absent in zip(known, hidden[row], strict=True)]
             ids[row, : len(text)] = torch.tensor(known)
-            vectors[row, : len(text)] = torch.from_numpy(lexicon.vectors(text))
-        return cls(ids, vectors, torch.tensor([len(text) for text in texts]))
+        return cls(ids, encoder.read(texts).clone(), torch.tensor([len(text) for text in texts]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +103,7 @@ class SpanNet(nn.Module):
         self.config = config
         tasks, states = len(config.tasks), 2 * config.encoder
         self.embedding = nn.Embedding(len(config.words) + 1, config.embedding)
-        self.projection = nn.Linear(config.lexical, config.projection)
+        self.projection = nn.Linear(config.vector, config.projection)
         self.dropout = nn.Dropout(config.dropout)
         self.encoder = nn.GRU(
             config.embedding + config.projection,
@@ -123,8 +122,8 @@ class SpanNet(nn.Module):
 
     def forward(self, batch: TextBatch) -> Scores:
         """Score the tasks and the tags of every word."""
-        lexical = torch.tanh(self.projection(batch.vectors))  # [B, S, projection]
-        read = self.dropout(torch.cat([self.embedding(batch.numbers), lexical], dim=2))  # [B, S, E]
+        meant = torch.tanh(self.projection(batch.vectors))  # [B, S, projection]
+        read = self.dropout(torch.cat([self.embedding(batch.numbers), meant], dim=2))  # [B, S, E]
         packed = pack_padded_sequence(read, batch.lengths, batch_first=True, enforce_sorted=False)
         states, _ = pad_packed_sequence(self.encoder(packed)[0], batch_first=True)  # [B, S, H]
         here = (torch.arange(states.shape[1]) < batch.lengths[:, None])[:, :, None]  # [B, S, 1]

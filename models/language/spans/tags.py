@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from models.language.spans.crf import FORBIDDEN
 
 OUTSIDE = 0
-MAX_ARGUMENTS = 3
-"""The most arguments of a task class."""
+MAX_ARGUMENTS = 4
+"""The most arguments of a task class, and the most clauses of a composed command."""
 TAGS = 1 + 2 * MAX_ARGUMENTS
 """L: `OUTSIDE`, then two for each argument position."""
 Span = tuple[int, int]

@@ -55,6 +55,7 @@ class CandidateOut(BaseModel):
 class QuestionOut(BaseModel):
     """A question to ask back."""
 
+    part: str = Field(description="JSON pointer of its task within the query; empty where it is not composed.")
     argument: int = Field(description="Position of the argument in doubt, from 1.")
     text: str
     choices: list[str]

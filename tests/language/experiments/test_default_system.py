@@ -40,7 +40,7 @@ class _Shelf:
     def save(self, model: _Model, folder: Path, *, name: str) -> None:
         self.models[folder, name] = model
 
-    def train(self, settings: Settings, *, seed: int, log: Callable[[object], None]) -> _Model:
+    def train(self, course: object, settings: Settings, *, seed: int, log: Callable[[object], None]) -> _Model:
         self.trained.append(seed)
         for _ in range(settings.epochs):
             log({})
@@ -62,7 +62,7 @@ def shelf(monkeypatch: pytest.MonkeyPatch) -> _Shelf:
 
 
 def _made_with(seed: int, settings: Settings) -> tuple[object, object]:
-    model = trained_system(seed, settings, RUNS, lambda _: None).translator
+    model = trained_system(seed, settings, RUNS, lambda _: None).translator.single
     assert isinstance(model, _Model)
     return model.training["seed"], model.training["epochs"]
 

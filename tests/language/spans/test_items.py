@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from models.language.dataset import Domain, fill, generate
+from models.language.encoder import encoder
 from models.language.spans.decoding import best_sequences
 from models.language.spans.items import Item, batches, likelihood
-from models.language.spans.lexicon import lexicon
 from models.language.spans.network import SpanConfig, SpanNet, TextBatch
 from models.language.spans.tags import mentions_of
 
@@ -52,7 +52,7 @@ def network() -> SpanNet:
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(0)
         config = SpanConfig(
-            words=("take", "the", "from"), tasks=(("take", 1), ("move", 2)), lexical=lexicon().size, encoder=8
+            words=("take", "the", "from"), tasks=(("take", 1), ("move", 2)), vector=encoder().size, encoder=8
         )
         return SpanNet(config).eval()
 
@@ -60,9 +60,9 @@ def network() -> SpanNet:
 @torch.inference_mode()
 def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: SpanNet) -> None:
     text = ("take", "the", "mug")
-    total = float(likelihood(network, [Item(text)], lexicon()).exp())  # that no task fits
+    total = float(likelihood(network, [Item(text)], encoder()).exp())  # that no task fits
     numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
-    scores = network(TextBatch.of([text], numbers, lexicon()))
+    scores = network(TextBatch.of([text], numbers, encoder()))
     for task, (name, arity) in enumerate(network.config.tasks):
         field = (
             scores.emissions[0, :, task],
@@ -71,7 +71,7 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
         )
         for _, tags in best_sequences(*(tensor.double().numpy() for tensor in field), count=10_000):
             item = Item(text, name, mentions_of(tags, arity))
-            total += float(likelihood(network, [item], lexicon()).exp())
+            total += float(likelihood(network, [item], encoder()).exp())
     assert total == pytest.approx(1.0, abs=1e-4)
 
 
@@ -79,14 +79,14 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
 def test_padding_changes_nothing(network: SpanNet) -> None:
     short = Item(("take", "the", "mug"), "take", (((2, 3),),))
     long = Item(("take", "the", "claw", "hammer", "from", "the", "shed"), "move", (((2, 4),), ((6, 7),)))
-    alone = [float(likelihood(network, [item], lexicon())) for item in (short, long, Item(("mug",)))]
-    together = likelihood(network, [short, long, Item(("mug",))], lexicon()).tolist()
+    alone = [float(likelihood(network, [item], encoder())) for item in (short, long, Item(("mug",)))]
+    together = likelihood(network, [short, long, Item(("mug",))], encoder()).tolist()
     assert together == pytest.approx(alone, abs=1e-5)
 
 
 @torch.inference_mode()
 def test_a_hidden_word_reads_like_one_without_an_embedding(network: SpanNet) -> None:
     numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
-    batch = TextBatch.of([("take", "the")], numbers, lexicon(), hidden=[[False, True]])
+    batch = TextBatch.of([("take", "the")], numbers, encoder(), hidden=[[False, True]])
     assert batch.numbers.tolist() == [[1, 0]]
-    assert torch.equal(batch.vectors, TextBatch.of([("take", "the")], numbers, lexicon()).vectors)
+    assert torch.equal(batch.vectors, TextBatch.of([("take", "the")], numbers, encoder()).vectors)

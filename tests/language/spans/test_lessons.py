@@ -8,7 +8,7 @@ import pytest
 
 from models.language.dataset import Domain, Part, generate, no_task, open_words, paraphrases, read_corpus
 from models.language.spans.items import Item
-from models.language.spans.lessons import Lessons, misspelled, spoken_words
+from models.language.spans.lessons import COMMANDS, OTHER_JOBS, REFUSALS, Lessons, misspelled, spoken_words
 from models.language.tokens import words
 
 
@@ -28,7 +28,7 @@ def held_out_words() -> set[str]:
 
 
 def test_an_epoch_names_nothing_of_u_or_of_the_held_out_lists(lessons: Lessons) -> None:
-    items = lessons.epoch(random.Random(1), commands=300, refusals=0)
+    items = lessons.epoch(random.Random(1))
     named = {item.text[place] for item in items for place in item.mentioned}
     seen = words_of(Part.SEEN) | lessons.names.words
     # what is made up or misspelt may fall on any word, once in a while; nothing is drawn from the lists
@@ -37,11 +37,11 @@ def test_an_epoch_names_nothing_of_u_or_of_the_held_out_lists(lessons: Lessons) 
 
 
 def test_an_epoch_has_every_task_and_no_held_out_command(lessons: Lessons) -> None:
-    items = lessons.epoch(random.Random(2), commands=40, refusals=70)
+    items = lessons.epoch(random.Random(2))
     tasks = [task.name for domain in Domain for task in read_corpus(domain).tasks]
     assert {task: sum(item.task == task for item in items) for task in (*tasks, None)} == {
-        **dict.fromkeys(tasks, 40),
-        None: 70,
+        **dict.fromkeys(tasks, COMMANDS),
+        None: REFUSALS + OTHER_JOBS,
     }
     for item in items:
         if item.task is not None:

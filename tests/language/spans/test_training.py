@@ -13,15 +13,16 @@ from models.language import SpanTranslator, TrainingError
 from models.language.dataset import Domain, generate
 from models.language.errors import WeightsError
 from models.language.spans import SpanModel, load_model, save_model
+from models.language.spans.lessons import Lessons
 from models.language.spans.training import Epoch, Settings, train
 
-SMALL = Settings(epochs=8, commands=100, refusals=150, batch=16, embedding=24, projection=24, encoder=32, layers=1)
+SMALL = Settings(epochs=8, share=0.2, batch=16, embedding=24, projection=24, encoder=32, layers=1)
 
 
 @pytest.fixture(scope="module")
 def trained() -> tuple[SpanModel, list[Epoch]]:
     curve: list[Epoch] = []
-    return train(SMALL, seed=3, log=curve.append), curve
+    return train(Lessons.load(seed=3), SMALL, seed=3, log=curve.append), curve
 
 
 def test_it_learns(trained: tuple[SpanModel, list[Epoch]]) -> None:
@@ -35,8 +36,8 @@ def test_it_learns(trained: tuple[SpanModel, list[Epoch]]) -> None:
 
 
 def test_the_same_seed_gives_the_same_model_and_another_another(trained: tuple[SpanModel, list[Epoch]]) -> None:
-    brief = replace(SMALL, epochs=1, commands=10, refusals=10)
-    one, two, other = (train(brief, seed=seed).network.state_dict() for seed in (5, 5, 6))
+    brief = replace(SMALL, epochs=1, share=0.02)
+    one, two, other = (train(Lessons.load(seed=seed), brief, seed=seed).network.state_dict() for seed in (5, 5, 6))
     assert all(torch.equal(one[key], two[key]) for key in one)
     assert not torch.equal(one["task.weight"], other["task.weight"])
 
@@ -45,7 +46,7 @@ def test_training_leaves_the_callers_generator_alone() -> None:
     torch.manual_seed(11)
     expected = torch.rand(1)
     torch.manual_seed(11)
-    train(replace(SMALL, epochs=1, commands=4, refusals=4), seed=0)
+    train(Lessons.load(seed=0), replace(SMALL, epochs=1, share=0.01), seed=0)
     assert torch.equal(torch.rand(1), expected)
 
 
@@ -85,4 +86,4 @@ def test_damaged_files_are_refused(trained: tuple[SpanModel, list[Epoch]], tmp_p
 
 def test_a_run_needs_an_epoch() -> None:
     with pytest.raises(TrainingError):
-        train(replace(SMALL, epochs=0))
+        train(Lessons.load(seed=0), replace(SMALL, epochs=0))

@@ -163,10 +163,9 @@ def test_the_confidence_is_the_sum_over_the_taggings_that_say_the_query(translat
     assert reading.query == parse_query("ship(mug, crate, attic)")
     both, first, second = (((5, 6), (9, 10)), ((5, 6),), ((9, 10),))
     items = [Item(text, "ship", (((2, 3),), crates, ((12, 13),))) for crates in (both, first, second)]
+    reader = translator.reader
     with torch.inference_mode():
-        likelihoods = likelihood(
-            translator.model.network, items, translator.lexicon, temperature=translator.model.temperature
-        )
+        likelihoods = likelihood(reader.model.network, items, reader.encoder, temperature=reader.model.temperature)
     assert reading.confidence == pytest.approx(float(likelihoods.exp().sum()), abs=1e-3)
 
 

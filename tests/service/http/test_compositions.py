@@ -103,3 +103,10 @@ def test_exactly_one_form_of_a_query(client: httpx.Client) -> None:
 def test_a_composition_is_not_taught(client: httpx.Client) -> None:
     body = {"contextual_query": TEXT, "ltl": "F holding(sphere)", "environment": "toys"}
     check_problem(client.post("/learn", json=body), "query-syntax", 422, ["/contextual_query"])
+
+
+def test_a_question_names_the_part_in_doubt(client: httpx.Client) -> None:
+    answer = client.post("/translate", json={"text": "go to the kitchen, then pick up the toy", "environment": "toys"})
+    question = answer.json()["question"]
+    assert (question["part"], question["argument"]) == ("/operands/1", 1)
+    assert {"cylinder", "sphere"} <= set(question["choices"])

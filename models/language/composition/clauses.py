@@ -1,0 +1,182 @@
+"""From the clauses of a text to queries: what is left out of a clause, and whom "it" means, is found in the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice, product
+from typing import Protocol
+
+from models.language.tokens import find, is_mark
+from models.language.translation import Translation
+from models.language.wording import DETERMINERS
+from models.queries import ContextualQuery
+
+
+class Understand(Protocol):
+    """What a clause may say, by its text."""
+
+    def __call__(self, text: str, /) -> Sequence[Translation]:
+        """The readings of a clause, best first."""
+
+    def prepare(self, texts: Iterable[str], /) -> None:
+        """Read several at once; they will be asked for."""
+
+
+PRONOUNS = frozenset({"it", "them", "that", "this", "one", "him", "her", "both"})
+PLACE_PRONOUNS = frozenset({"there", "here"})
+GOING = ("go", "to", "the")
+"""What is said of a place when nothing is: "the bakery, then the zoo"."""
+JOINING = frozenset({"either", "both", "and", "or", "then", "first", "but"})
+"""Words in front of all clauses that are no part of their verb."""
+LIKELIER = 0.75
+"""Share of the first of two ways to complete a clause, or to read a pronoun; the environment may turn it round."""
+ALTERNATIVES = 4
+"""Readings of one clause that are looked at."""
+MOST = 12
+"""Ways to read all clauses together that are looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """One clause: its number in the shape, its words, and whether it is avoided or awaited."""
+
+    number: int
+    words: tuple[str, ...]
+    forbidden: bool
+
+
+def readings(
+    clauses: Sequence[Clause], understand: Understand, *, before: Sequence[str] = ()
+) -> Iterator[tuple[dict[int, ContextualQuery], float]]:
+    """Ways to read the clauses (in the order of the text) together, with their probabilities; best first within a
+    clause. None where a clause cannot be understood. `before` are the words in front of the first clause.
+    """
+    understand.prepare(" ".join(clause.words) for clause in clauses)
+    spoken = {clause.number: understand(" ".join(clause.words)) for clause in clauses}
+    whole = {clause.number for clause in clauses if not is_bare(clause.words, spoken[clause.number])}
+    texts = {
+        clause.number: _completions(clause, _donor(clauses, place, whole), spoken, before)
+        for place, clause in enumerate(clauses)
+        if clause.number not in whole
+    }
+    understand.prepare(text for pair in texts.values() for text in pair if text)
+    options = [
+        list(spoken[clause.number][:ALTERNATIVES])
+        if clause.number in whole
+        else _completed(clause, texts[clause.number], understand)
+        for clause in clauses
+    ]
+    combined = islice(product(*options), 4 * MOST)
+    ranked = sorted(combined, key=lambda chosen: -_product(chosen))[:MOST]
+    for chosen in ranked:
+        numbered = [(clause.number, found) for clause, found in zip(clauses, chosen, strict=True)]
+        for queries, share in _resolved(numbered):
+            yield queries, _product(chosen) * share
+
+
+def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
+    """Whether a clause only names things: its words are those of its arguments, or it says nothing that is known."""
+    if not said:
+        return True
+    query = said[0].query
+    assert isinstance(query, ContextualQuery)
+    named = {word for phrase in query.arguments for word in phrase.split()}
+    return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
+
+
+def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | None:
+    """The clause whose verb is meant: the nearest one before, or the first after."""
+    before = [clause for clause in clauses[:place] if clause.number in whole]
+    after = [clause for clause in clauses[place + 1 :] if clause.number in whole]
+    return before[-1] if before else after[0] if after else None
+
+
+def _completions(
+    clause: Clause, donor: Clause | None, spoken: Mapping[int, Sequence[Translation]], before: Sequence[str]
+) -> tuple[str | None, str]:
+    """The text of a bare clause with the verb of another, or that in front of all; and as a place to go to."""
+    words = clause.words[1:] if clause.words[0] in DETERMINERS else clause.words
+    going = " ".join((*GOING, *words))
+    if donor is not None:
+        return _carried(donor.words, spoken[donor.number][0], words), going
+    verb = [word for word in before if word not in JOINING]
+    return (None if clause.forbidden or not verb else " ".join((*verb, "the", *words))), going
+
+
+def _completed(clause: Clause, texts: tuple[str | None, str], understand: Understand) -> list[Translation]:
+    """What a bare clause says, completed in either way."""
+    carried = list(understand(texts[0]))[:ALTERNATIVES] if texts[0] else []
+    going = list(understand(texts[1]))[:ALTERNATIVES]
+    first, second = (going, carried) if clause.forbidden else (carried, going)
+    if not first or not second:
+        return first or second
+    weighed = [replace(t, confidence=t.confidence * LIKELIER) for t in first]
+    weighed += [replace(t, confidence=t.confidence * (1 - LIKELIER)) for t in second]
+    found: dict[ContextualQuery, float] = {}
+    for translation in weighed:
+        assert isinstance(translation.query, ContextualQuery)
+        found[translation.query] = found.get(translation.query, 0.0) + translation.confidence
+    return [Translation(query, min(1.0, share)) for query, share in found.items()]
+
+
+def _carried(donor: Sequence[str], said: Translation, words: Sequence[str]) -> str | None:
+    """The donor's text with other words for its arguments, where these stand together."""
+    assert isinstance(said.query, ContextualQuery)
+    spans = [
+        (at, at + len(phrase.split()))
+        for phrase in said.query.arguments
+        if (at := find(phrase.split(), donor)) is not None
+    ]
+    if not spans or len(spans) != len(said.query.arguments):
+        return None
+    begin, end = min(spans)[0], max(end for _, end in spans)
+    covered = {place for start, stop in spans for place in range(start, stop)}
+    if any(place not in covered and donor[place] not in DETERMINERS for place in range(begin, end)):
+        return None
+    return " ".join((*donor[:begin], *words, *donor[end:]))
+
+
+def _resolved(chosen: Sequence[tuple[int, Translation]]) -> Iterator[tuple[dict[int, ContextualQuery], float]]:
+    """The queries by number, with what pronouns stand for; the likeliest first."""
+    options: list[tuple[dict[int, ContextualQuery], float, tuple[str, ...], tuple[str, ...]]] = [({}, 1.0, (), ())]
+    for number, translation in chosen:
+        query = translation.query
+        assert isinstance(query, ContextualQuery)
+        grown = []
+        for queries, share, things, places in options:
+            for arguments, part in _replaced(query.arguments, things, places):
+                made = ContextualQuery(query.task, arguments)
+                named = [a for a in arguments if a not in things]
+                grown.append(({**queries, number: made}, share * part, (*named[:1], *things), (*named[::-1], *places)))
+        options = sorted(grown, key=lambda option: -option[1])[:4]
+    for queries, share, _, _ in options:
+        yield queries, share
+
+
+def _replaced(
+    arguments: Sequence[str], things: Sequence[str], places: Sequence[str]
+) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Arguments with pronouns replaced by what was named before (nearest first); none if nothing was."""
+    choices: list[list[tuple[str, float]]] = []
+    for argument in arguments:
+        kind = things if argument in PRONOUNS else places if argument in PLACE_PRONOUNS else None
+        if kind is None:
+            choices.append([(argument, 1.0)])
+        else:
+            known = list(dict.fromkeys([*kind, *things, *places]))[:2]
+            weights = [LIKELIER, 1 - LIKELIER] if len(known) == 2 else [1.0]
+            choices.append(list(zip(known, weights, strict=False)))
+    for chosen in product(*choices):
+        yield tuple(argument for argument, _ in chosen), _share([share for _, share in chosen])
+
+
+def _product(chosen: Sequence[Translation]) -> float:
+    return _share([translation.confidence for translation in chosen])
+
+
+def _share(parts: Sequence[float]) -> float:
+    result = 1.0
+    for part in parts:
+        result *= part
+    return result

@@ -1,0 +1,167 @@
+"""The texts that teach how commands are put together, drawn anew in each epoch.
+
+A text's *task* is the shape of its composition, such as `then(1, or(2, 3))`, and its arguments are the clauses. One
+command alone has the shape `SINGLE`, whatever it asks for. Names of things are drawn from the same lists as for the
+default translator's task classes, so nothing but the way clauses are joined can be learned by heart.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Literal, Self
+
+from models.language.composition.shapes import SINGLE
+from models.language.dataset import frames, no_task
+from models.language.dataset.composition import Form, Hole, Leaf, Pattern, leaves, patterns, slot_elements
+from models.language.spans.items import Item
+from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, Lessons, misspelled
+from models.language.spans.tags import Span
+from models.language.spans.training import Settings
+from models.language.tokens import marked_words
+
+SETTINGS = Settings(epochs=14, embedding=32)
+"""How the network is fitted."""
+ONE_CLAUSE = ("move_to", "pickup", "pickup_colored", "navigate_one")
+"""Task classes that are said in one clause; others are said as sequences are, and preferred to them when understood."""
+EACH, ALONE, NONE = 100, 1600, 800
+"""Texts of each composition, of one command alone, and of no command, in an epoch."""
+UNMARKED = 0.25
+"""Part of the texts without any mark of punctuation."""
+LOST = 0.15
+"""Marks that are left out of the other texts."""
+FRAMED, MISSPELLED, PRONOUN = 0.25, 0.12, 0.35
+
+
+@dataclass(frozen=True, slots=True)
+class CompositionLessons:
+    """What texts are drawn from; see `models.language.spans.training.Course`."""
+
+    single: Lessons
+    refused: Sequence[Item]
+    held_out: Sequence[Item]
+
+    @classmethod
+    def load(cls, *, seed: int) -> Self:
+        """With the commands of one task that are drawn with a seed; U and the held-out lists are never drawn."""
+        texts = no_task(seed=seed, joined=False)
+        refused, held_out = (
+            [Item(spoken) for text in part if (spoken := marked_words(text))]
+            for part in (texts.training, texts.held_out)
+        )
+        return cls(Lessons.load(seed=seed), refused, held_out)
+
+    @property
+    def tasks(self) -> tuple[tuple[str, int], ...]:
+        """The shapes with their numbers of clauses."""
+        return ((SINGLE, 1), *((shape, len(group[0].holes)) for shape, group in patterns().items()))
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words and marks that join clauses, and those of the clauses beside their names."""
+        joining = (element for group in patterns().values() for pattern in group for element in pattern.elements)
+        clauses = (element for leaf in leaves() for text in leaf.forms.values() for element in slot_elements(text))
+        framing = (word for kind in _framing() for frame in kind for word in marked_words(frame))
+        return tuple(sorted({word for word in chain(joining, clauses, framing) if isinstance(word, str)}))
+
+    def epoch(self, generator: random.Random) -> list[Item]:
+        """Texts for one pass."""
+        items = [self.composed(shape, generator) for shape in patterns() for _ in range(EACH)]
+        items += [self.alone(generator) for _ in range(ALONE)]
+        items += generator.choices(self.refused, k=NONE)
+        return [misspelled(item, generator) if generator.random() < MISSPELLED else item for item in items]
+
+    def checks(self, generator: random.Random) -> list[Item]:
+        """What the network is judged by: further texts of the same kind, and texts without a command."""
+        items = [self.composed(shape, generator) for shape in patterns() for _ in range(8)]
+        return [*items, *(self.alone(generator) for _ in range(200)), *self.held_out]
+
+    def alone(self, generator: random.Random) -> Item:
+        """One command: of the paper's classes, or any clause."""
+        if generator.random() < 0.5:
+            item = self.single.command(generator.choice(ONE_CLAUSE), generator)
+            before, after = item.frame
+            return Item(item.text, SINGLE, (((before, len(item.text) - after),),), item.frame)
+        leaf = generator.choice(leaves())
+        text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, {})
+        return self._framed(Item(tuple(text), SINGLE, (((0, len(text)),),)), "do", generator)
+
+    def composed(self, shape: str, generator: random.Random) -> Item:
+        """A text of a shape."""
+        pattern = generator.choice(patterns()[shape])
+        chosen = _leaves(pattern, generator)
+        keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
+        text: list[str] = []
+        mentions: list[tuple[Span, ...]] = [()] * len(pattern.holes)
+        earlier: dict[str, bool] = {}
+        for element in pattern.elements:
+            if isinstance(element, str):
+                if element.isalnum() or len(element) > 1 or generator.random() < keeps:
+                    text.append(element)
+                continue
+            said = self._said(chosen[element.leaf], element.form, generator, earlier)
+            if text and text[-1] == "no" and said[0] in DETERMINERS:
+                said = said[1:]
+            mentions[element.leaf - 1] = ((len(text), len(text) + len(said)),)
+            text += said
+        item = Item(tuple(text), shape, tuple(mentions))
+        first = pattern.elements[0]
+        return self._framed(item, first.form if isinstance(first, Hole) else "it", generator)
+
+    def _said(self, leaf: Leaf, form: Form, generator: random.Random, earlier: dict[str, bool]) -> list[str]:
+        """The words of a clause; what was named before may be a pronoun."""
+        if form == "it":
+            slot = leaf.target or leaf.slots[-1]
+            earlier[slot] = True
+            return self._phrase(slot, generator)
+        text = leaf.forms.get(form) or leaf.do
+        said: list[str] = []
+        previous = ""
+        for element in slot_elements(text):
+            if isinstance(element, str):
+                said.append(element)
+                continue
+            (slot,) = element
+            if earlier.get(slot) and generator.random() < PRONOUN and slot in ("object", "place", "container"):
+                there = slot == "place" and said and said[-1] in ("to", "at", "in")
+                if there:
+                    said.pop()
+                said.append("there" if slot == "place" else "it")
+            else:
+                said += self._phrase(slot, generator, bare=previous == "color")
+            earlier[slot] = True
+            previous = slot
+        return said
+
+    def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
+        determiner = "" if bare else generator.choice(DETERMINERS)
+        return [*([determiner] if determiner else []), *self.single.names.draw(CLAUSE_SLOTS[slot], generator)]
+
+    def _framed(self, item: Item, form: Form, generator: random.Random) -> Item:
+        if generator.random() > FRAMED:
+            return item
+        calls, requests, closings = _framing()
+        frame = generator.choice(generator.choice([calls, closings, requests if form == "do" else calls]))
+        before, _, after = frame.partition("{}")
+        return item.within(marked_words(before), marked_words(after))
+
+
+def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
+    """A clause for each hole that has the form; all are about one kind of thing where only its name is said."""
+    kind: Literal["place", "object"] = "place" if generator.random() < 0.65 else "object"
+    bare = any(hole.form == "it" for hole in pattern.holes)
+    chosen: dict[int, Leaf] = {}
+    for hole in pattern.holes:
+        fitting: Sequence[Leaf] = [leaf for leaf in leaves() if hole.form == "it" or hole.form in leaf.forms]
+        if bare or generator.random() < 0.5:
+            fitting = [leaf for leaf in fitting if leaf.target == kind] or fitting
+        chosen[hole.leaf] = generator.choice(fitting)
+    return chosen
+
+
+def _framing() -> tuple[Sequence[str], Sequence[str], Sequence[str]]:
+    """Calls, requests and closings with one place for a command."""
+    found = frames("training")
+    return tuple([f for f in kind if f.count("{}") == 1] for kind in (found.calls, found.requests, found.closings))  # type: ignore[return-value]

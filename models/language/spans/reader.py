@@ -1,0 +1,99 @@
+"""A network of `models.language.spans` read out: the likeliest classes of a text, with their arguments' mentions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Self
+
+import torch
+
+from models.language.encoder import Encoder, encoder
+from models.language.spans.decoding import TagScores, best_sequences, log_total
+from models.language.spans.model import SpanModel
+from models.language.spans.network import TextBatch
+from models.language.spans.tags import OUTSIDE, Span, mentions_of
+
+SEQUENCES = 16
+"""Tag sequences read out for each task class; different ones may say the same query, and their probabilities add up."""
+LEAST_TASK = 1e-3
+"""Task classes less probable than this are not read out."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpanReading:
+    """A task class and the mentions of each of its arguments, as ranges of the words.
+
+    `strange` are the words that are taken for names and that wordings never use.
+    """
+
+    task: str
+    mentions: tuple[tuple[Span, ...], ...]
+    probability: float
+    strange: frozenset[int]
+
+
+Read = tuple[tuple[SpanReading, ...], float]
+"""The readings of a text, and the probability that no class fits."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SpanReader:
+    """Reads folded words."""
+
+    model: SpanModel
+    encoder: Encoder
+    _numbers: Mapping[str, int] = field(repr=False)
+    _transitions: TagScores = field(repr=False)  # [K, L, L]
+    _start: TagScores = field(repr=False)  # [K, L]
+
+    @classmethod
+    def of(cls, model: SpanModel) -> Self:
+        """The reader of a model."""
+        network = model.network
+        numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
+        transitions = network.transition.detach().double() / model.temperature + network.allowed
+        return cls(model, encoder(), numbers, transitions.numpy(), network.allowed_start.double().numpy())
+
+    def read(self, spoken: Sequence[str]) -> Read:
+        """The readings of one text, and the probability that no class fits."""
+        return self.read_all([spoken])[0]
+
+    @torch.inference_mode()
+    def read_all(self, texts: Sequence[Sequence[str]]) -> list[Read]:
+        """For each text the readings in order of the classes, each class's best first, and the probability that no
+        class fits.
+
+        The probability of a reading is that of its class times that of its tag sequence.
+        """
+        scores = self.model.network(TextBatch.of(texts, self._numbers, self.encoder))
+        every = scores.emissions.double().numpy() / self.model.temperature  # [B, S, K, L]
+        tasks = (scores.tasks / self.model.temperature).softmax(dim=1).tolist()  # [B][K + 1]
+        return [
+            (self._readings(text, emissions[: len(text)], likely), likely[-1])
+            for text, emissions, likely in zip(texts, every, tasks, strict=True)
+        ]
+
+    def _readings(self, spoken: Sequence[str], emissions: TagScores, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
+        """The readings of one text. `emissions` is [S, K, L]."""
+        return tuple(
+            reading
+            for task, probability in enumerate(tasks[:-1])
+            if probability >= LEAST_TASK
+            for reading in self._of_task(spoken, emissions[:, task], task, probability)
+        )
+
+    def _of_task(
+        self, spoken: Sequence[str], emissions: TagScores, task: int, probability: float
+    ) -> Iterator[SpanReading]:
+        """The readings of the best tag sequences of one class. `emissions` is [S, L]."""
+        name, arity = self.model.network.config.tasks[task]
+        transitions, start = self._transitions[task], self._start[task]  # [L, L], [L]
+        total = log_total(emissions, transitions, start)
+        for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES):
+            mentions = mentions_of(tags, arity)
+            if all(mentions):
+                named = (place for place, tag in enumerate(tags) if tag != OUTSIDE)
+                strange = frozenset(place for place in named if spoken[place] not in self._numbers)
+                yield SpanReading(name, mentions, probability * math.exp(min(0.0, score - total)), strange)

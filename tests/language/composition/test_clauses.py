@@ -1,0 +1,103 @@
+"""Clauses completed by each other, with a table in the place of a translator."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import pytest
+
+from models.language import Translation
+from models.language.composition.clauses import Clause, is_bare, readings
+from models.queries import parse_task
+
+SAYS = {
+    "go to the zoo": ["go(zoo)"],
+    "go to the bank": ["go(bank)"],
+    "go to the ball": ["go(ball)"],
+    "go to the blue bag": ["go(blue bag)"],
+    "go there": ["go(there)"],
+    "visit the zoo": ["go(zoo)"],
+    "visit bank": ["go(bank)"],
+    "bank": ["go(bank)"],
+    "pick up the ball": ["pickup(ball)"],
+    "pick up the blue bag": ["pickup(blue bag)"],
+    "pick up blue bag": ["pickup(blue bag)"],
+    "put it in the box": ["put(it, box)"],
+    "put the ball in the box": ["put(ball, box)"],
+    "take it there": ["carry(it, there)"],
+    "lift one of them": ["pickup(one)"],
+}
+
+
+class Table:
+    def __call__(self, text: str, /) -> list[Translation]:
+        return [Translation(parse_task(query), 0.8) for query in SAYS.get(text, [])]
+
+    def prepare(self, texts: Iterable[str], /) -> None:
+        pass
+
+
+understand = Table()
+
+
+def read(*texts: str, forbidden: tuple[int, ...] = ()) -> list[tuple[list[str], float]]:
+    clauses = [Clause(number, tuple(text.split()), number in forbidden) for number, text in enumerate(texts, start=1)]
+    found = readings(clauses, understand)
+    return [([str(queries[number]) for number in sorted(queries)], share) for queries, share in found]
+
+
+def test_clauses_that_say_all_themselves() -> None:
+    assert read("pick up the ball", "go to the zoo") == [(["pickup(ball)", "go(zoo)"], pytest.approx(0.64))]
+
+
+def test_a_bare_name_has_the_verb_of_the_clause_before_or_is_a_place() -> None:
+    assert read("pick up the ball", "the blue bag") == [
+        (["pickup(ball)", "pickup(blue bag)"], pytest.approx(0.8 * 0.8 * 0.75)),
+        (["pickup(ball)", "go(blue bag)"], pytest.approx(0.8 * 0.8 * 0.25)),
+    ]
+
+
+def test_a_bare_name_that_comes_first_has_the_verb_of_the_one_after() -> None:
+    assert read("bank", "visit the zoo")[0] == (["go(bank)", "go(zoo)"], pytest.approx(0.64))
+
+
+def test_bare_names_alone_are_places() -> None:
+    assert read("the bank", "the zoo") == [(["go(bank)", "go(zoo)"], pytest.approx(0.64))]
+
+
+def test_what_is_avoided_is_a_place_first() -> None:
+    assert [queries for queries, _ in read("pick up the ball", "the blue bag", forbidden=(2,))] == [
+        ["pickup(ball)", "go(blue bag)"],
+        ["pickup(ball)", "pickup(blue bag)"],
+    ]
+
+
+def test_pronouns_stand_for_what_was_named_before() -> None:
+    assert read("pick up the ball", "put it in the box")[0] == (["pickup(ball)", "put(ball, box)"], pytest.approx(0.64))
+    assert read("go to the zoo", "go there")[0][0] == ["go(zoo)", "go(zoo)"]
+
+
+def test_the_likelier_antecedent_comes_first() -> None:
+    found = read("put the ball in the box", "take it there")
+    assert found[0][0] == ["put(ball, box)", "carry(ball, box)"]
+    assert {tuple(queries) for queries, _ in found} > {("put(ball, box)", "carry(ball, box)")}
+    assert sum(share for _, share in found) == pytest.approx(0.64)
+
+
+def test_a_pronoun_for_nothing_and_a_clause_that_says_nothing_have_no_reading() -> None:
+    assert read("put it in the box", "go to the zoo") == []
+    assert read("pick up the ball", "sing a song") == []
+
+
+@pytest.mark.parametrize(
+    ("words", "bare"),
+    [("the bank", True), ("bank", True), ("go to the bank", False), ("sing", True), ("pick up the ball", False)],
+)
+def test_bare_clauses(words: str, bare: bool) -> None:
+    assert is_bare(words.split(), understand(words)) == bare
+
+
+def test_a_verb_in_front_of_all_clauses_is_that_of_each() -> None:
+    clauses = [Clause(1, ("the", "ball"), False), Clause(2, ("the", "blue", "bag"), False)]
+    found = list(readings(clauses, understand, before=("pick", "up", "either")))
+    assert [str(query) for query in found[0][0].values()] == ["pickup(ball)", "pickup(blue bag)"]
