@@ -13,7 +13,7 @@ from models.language.encoder import Encoder, encoder
 from models.language.spans.decoding import TagScores, best_sequences, log_total
 from models.language.spans.model import SpanModel
 from models.language.spans.network import TextBatch
-from models.language.spans.tags import OUTSIDE, Span, mentions_of
+from models.language.spans.tags import OUTSIDE, Span, begins, mentions_of
 
 SEQUENCES = 16
 """Tag sequences read out for each task class; different ones may say the same query, and their probabilities add up."""
@@ -89,7 +89,9 @@ class SpanReader:
     ) -> Iterator[SpanReading]:
         """The readings of the best tag sequences of one class. `emissions` is [S, L]."""
         name, arity = self.model.network.config.tasks[task]
-        transitions, start = self._transitions[task], self._start[task]  # [L, L], [L]
+        used = begins(arity)  # the tags of arguments that the class does not have are forbidden: leave them out
+        emissions = emissions[:, :used]
+        transitions, start = self._transitions[task][:used, :used], self._start[task][:used]
         total = log_total(emissions, transitions, start)
         for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES):
             mentions = mentions_of(tags, arity)
