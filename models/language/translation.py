@@ -26,8 +26,9 @@ NEGATIONS = frozenset(
         "nothing",
     ]
 )
-"""Words that turn a command round. No task class that the networks know says such a thing, and a network that learned
-from commands may read "never pick up the sphere" as it reads "pick up the sphere"; so it does not read these at all."""
+"""Words that turn a command round. No single task class says such a thing, and a network that learned from commands may
+read "never pick up the sphere" as it reads "pick up the sphere"; so what reads single tasks does not read these at all.
+They are left to `models.language.composition`, which finds the clause that they forbid."""
 
 
 @dataclass(frozen=True, slots=True)
