@@ -4,6 +4,7 @@ CqltlError
 ├── NotFoundError
 │   ├── UnknownEnvironmentError
 │   ├── UnknownTemplateError
+│   ├── UnknownExampleError
 │   └── UnknownPolicyError
 ├── TemplateConflictError      another template is stored for the task
 ├── TooManyExamplesError       a template keeps no more pairs or utterances
@@ -39,6 +40,12 @@ class UnknownTemplateError(NotFoundError):
     """No template is stored for this task."""
 
     slug = "unknown-template"
+
+
+class UnknownExampleError(NotFoundError):
+    """The task has no example with this id."""
+
+    slug = "unknown-example"
 
 
 class UnknownPolicyError(NotFoundError):

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TypeVar
 
 from anyio.to_thread import run_sync
 
 from models.errors import CqltlError, Place
-from models.language import Wording
+from models.language import ExampleArgumentNotFoundError, Utterance, Wording, find_arguments, is_marked
 from models.logic import FormulaTooLargeError, parse
 from models.logic import to_text as formula_text
-from models.queries import Example, Template, learn, parse_task
+from models.queries import ContextualQuery, Example, Template, learn, parse_task
+from models.world import Environment
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
@@ -38,15 +39,17 @@ class Lesson:
     replace: bool = False
 
 
-@lru_cache(maxsize=1_024)
-def read_template(stored: StoredTemplate) -> Template:
-    """The template value of a stored one."""
-    kinds, taught = (tuple(map(frozenset, group)) for group in (stored.kinds, stored.taught))
-    return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds, taught)
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """A template as it is stored now, whether its task is new, and what to know of what was learned with it."""
+
+    stored: StoredTemplate
+    created: bool
+    conflicts: tuple[str, ...]
 
 
-async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemplate, bool]:
-    """Derive the template, review it, and store it; the flag says whether the task is new.
+async def learn_template(services: Services, lesson: Lesson) -> Learned:
+    """Derive the template, review it, and store it.
 
     Learning the same again stores nothing new but pairs and utterances not seen before.
 
@@ -54,29 +57,53 @@ async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemp
         TemplateConflictError: the task has another template and `lesson.replace` is not set.
         CqltlError: whatever parsing and `models.queries.learn` raise; then nothing is stored.
     """
-    environment, template = await run_sync(_derive, services, lesson)
+    template, environment, examples = await run_sync(_derive, services, lesson)
     job = ReviewJob(template, environment.text)
     try:
         warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
     except (OutOfTimeError, FormulaTooLargeError) as error:
         warnings = (f"the template was not checked for a simpler form: {error.detail}",)
-    return await run_sync(_keep, services, lesson, template, warnings)
+    return await run_sync(_keep, services, lesson, template, examples, warnings)
 
 
-def _derive(services: Services, lesson: Lesson) -> tuple[LoadedEnvironment, Template]:
+def _derive(services: Services, lesson: Lesson) -> tuple[Template, LoadedEnvironment, tuple[StoredExample, ...]]:
     with at("/environment"):
         environment = services.environment(lesson.environment)
-    examples = [_read_pair(lesson.query, lesson.ltl, "")]
-    examples += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
-    for index, utterance in enumerate(lesson.examples):
-        with at(f"/examples/{index}"):
-            Wording.of(utterance, examples[0].query)
+    pairs = [_read_pair(lesson.query, lesson.ltl, "")]
+    pairs += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
     try:
-        return environment, learn(examples, environment.value)
+        template = learn(pairs, environment.value)
     except CqltlError as error:
         error.places = tuple(_in_request(place) for place in error.places) or (Place("/ltl", error.detail),)
         error.placed = True
         raise
+    return template, environment, _read_utterances(lesson.examples, pairs, template, environment.value)
+
+
+def _read_utterances(
+    texts: Sequence[str], pairs: Sequence[Example], template: Template, environment: Environment
+) -> tuple[StoredExample, ...]:
+    """The utterances with the queries that they say: one of the pairs', where its words stand in them, or else that of
+    the things that they name in the environment.
+    """
+    found = []
+    for index, text in enumerate(dict.fromkeys(texts)):
+        with at(f"/examples/{index}"):
+            utterance = _read_utterance(text, [pair.query for pair in pairs], template, environment)
+            Wording.of(utterance)
+        found.append(StoredExample(text, str(utterance.query)))
+    return tuple(found)
+
+
+def _read_utterance(
+    text: str, queries: Sequence[ContextualQuery], template: Template, environment: Environment
+) -> Utterance:
+    if is_marked(text):
+        return Utterance.of(text, queries[0])
+    for query in queries:
+        with suppress(ExampleArgumentNotFoundError):
+            return Utterance.of(text, query)
+    return Utterance.of(text, find_arguments(text, template, environment))
 
 
 def _in_request(place: Place) -> Place:
@@ -94,8 +121,12 @@ def _read_pair(query: str, ltl: str, pointer: str) -> Example:
 
 
 def _keep(
-    services: Services, lesson: Lesson, template: Template, warnings: tuple[str, ...]
-) -> tuple[StoredTemplate, bool]:
+    services: Services,
+    lesson: Lesson,
+    template: Template,
+    examples: tuple[StoredExample, ...],
+    warnings: tuple[str, ...],
+) -> Learned:
     pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
     pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
     new = StoredTemplate(
@@ -105,7 +136,7 @@ def _keep(
         kinds=tuple(tuple(sorted(kinds)) for kinds in template.kinds),
         taught=tuple(tuple(sorted(kinds)) for kinds in template.taught),
         pairs=tuple(dict.fromkeys(pairs)),
-        examples=tuple(StoredExample(text, lesson.query) for text in dict.fromkeys(lesson.examples)),
+        examples=examples,
         warnings=warnings,
         revision=1,
     )
@@ -125,7 +156,9 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
-    return kept, known is None
+    with services.store.read() as transaction:
+        conflicts = services.taught.of(transaction).conflict_warnings(examples)
+    return Learned(kept, known is None, conflicts)
 
 
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:

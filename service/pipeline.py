@@ -22,10 +22,10 @@ from models.queries import (
 )
 from models.world import Environment, State
 from service.errors import AmbiguousCommandError, NotUnderstoodError
-from service.lessons import read_template
 from service.places import at
 from service.services import LoadedEnvironment, Services
 from service.store import StoredPolicy
+from service.taught import read_template
 from service.understanding import Meaning, Understanding, understand
 from service.worker import Device, Objective, PlanAnswer, PlanJob, run_plan
 

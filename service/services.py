@@ -14,6 +14,7 @@ from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.settings import Settings
 from service.store import Store, StoredPolicy
+from service.taught import TaughtCache
 from service.translators import Translators
 from service.worker import Workers
 
@@ -42,6 +43,7 @@ class Services:
         self.store = store
         self.workers = workers
         self.translators = translators
+        self.taught = TaughtCache()
         self._policy = lru_cache(maxsize=16)(self._read_policy)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)
 

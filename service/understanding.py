@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from models.errors import CqltlError
 from models.language import BEAM_WIDTH, ComposedTranslator, TaughtTranslator
@@ -19,11 +18,10 @@ from models.language.reading import (
     read,
 )
 from models.logic import Formula
-from models.queries import Binding, GroundedQuery, Path, Query, Template, parse_task
+from models.queries import Binding, GroundedQuery, Path, Query
 from models.world import Environment
-from service.lessons import read_template
 from service.services import Services
-from service.store import StoredExample, StoredTemplate, Transaction
+from service.store import StoredTemplate
 from service.translators import DEFAULT
 
 
@@ -78,22 +76,17 @@ def understand(
         return tuple(map(_of_formula, formulas[:candidates]))
     chosen = services.translators.queries(translator)
     with services.store.read() as transaction:
-        known = _taught(transaction) if translator == DEFAULT else TaughtTranslator(())
-        if isinstance(chosen, ComposedTranslator):
-            chosen = chosen.knowing(known)
-        taught = known.translate(text, candidates=BEAM_WIDTH)
-        learned = chosen.translate(text, candidates=wanted)
-        tasks = {task.task for found in (*learned, *taught) for _, task in found.query.tasks}
-        templates = transaction.templates.among(tasks)
-
-    def template_of(task: str) -> Template | None:
-        return read_template(templates[task]) if task in templates else None
-
+        known = services.taught.of(transaction)
+    wordings = known.wordings if translator == DEFAULT else TaughtTranslator(())
+    if isinstance(chosen, ComposedTranslator):
+        chosen = chosen.knowing(wordings)
+    taught = wordings.translate(text, candidates=BEAM_WIDTH)
+    learned = chosen.translate(text, candidates=wanted)
     readings = _merged(
-        read(text, taught, template_of=template_of, environment=environment),
-        rank(text, learned, template_of=template_of, environment=environment),
+        read(text, taught, template_of=known.template, environment=environment),
+        rank(text, learned, template_of=known.template, environment=environment),
     )
-    return tuple(_of_reading(reading, templates) for reading in readings[:candidates])
+    return tuple(_of_reading(reading, known.stored) for reading in readings[:candidates])
 
 
 def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
@@ -127,12 +120,3 @@ def _of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Un
 def _of_formula(reading: FormulaReading) -> Understanding:
     meaning = Meaning(reading.formula) if reading.refusal is None else None
     return Understanding(None, reading.confidence, meaning, reading.refusal)
-
-
-def _taught(transaction: Transaction) -> TaughtTranslator:
-    return _wordings(tuple(transaction.templates.examples()))
-
-
-@lru_cache(maxsize=4)
-def _wordings(examples: tuple[StoredExample, ...]) -> TaughtTranslator:
-    return TaughtTranslator.of((example.text, parse_task(example.contextual_query)) for example in examples)

@@ -86,6 +86,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
             "unused-parameter",
             "inconsistent-examples",
             "example-argument-not-found",
+            "example-mark",
             "example-too-general",
             "too-many-examples",
             "out-of-time",
@@ -103,10 +104,10 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
         examples=tuple(body.examples),
         replace=body.replace,
     )
-    stored, created = await learn_template(services, lesson)
-    response.status_code = 201 if created else 200
-    response.headers["Location"] = location("templates", stored.task)
-    return template_out(stored)
+    learned = await learn_template(services, lesson)
+    response.status_code = 201 if learned.created else 200
+    response.headers["Location"] = location("templates", learned.stored.task)
+    return template_out(learned.stored, *learned.conflicts)
 
 
 @router.post(

@@ -33,6 +33,7 @@ STATUS: dict[str, int] = {
     "not-found": 404,
     "unknown-environment": 404,
     "unknown-template": 404,
+    "unknown-example": 404,
     "unknown-policy": 404,
     "environment-exists": 409,
     "template-conflict": 409,
@@ -51,6 +52,7 @@ STATUS: dict[str, int] = {
     "inconsistent-examples": 422,
     "too-many-examples": 422,
     "example-argument-not-found": 422,
+    "example-mark": 422,
     "example-too-general": 422,
     # language
     "text-too-long": 422,

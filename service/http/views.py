@@ -15,6 +15,7 @@ from service.http.schemas import (
     BindingOut,
     CandidateOut,
     ContextualQueryTree,
+    ExampleOut,
     PairOut,
     ParameterOut,
     QuestionOut,
@@ -23,7 +24,8 @@ from service.http.schemas import (
 )
 from service.pipeline import Translated
 from service.places import at
-from service.store import StoredTemplate
+from service.store import StoredExample, StoredTemplate
+from service.taught import Taught
 from service.understanding import Meaning, Understanding
 
 
@@ -70,7 +72,7 @@ def bindings_out(meaning: Meaning) -> list[BindingOut]:
     ]
 
 
-def template_out(stored: StoredTemplate) -> TemplateOut:
+def template_out(stored: StoredTemplate, *further_warnings: str) -> TemplateOut:
     """A stored template."""
     return TemplateOut(
         task=stored.task,
@@ -86,7 +88,17 @@ def template_out(stored: StoredTemplate) -> TemplateOut:
         ],
         examples=[example.text for example in stored.examples],
         revision=stored.revision,
-        warnings=list(stored.warnings),
+        warnings=[*stored.warnings, *further_warnings],
+    )
+
+
+def example_out(example: StoredExample, taught: Taught) -> ExampleOut:
+    """A taught utterance."""
+    return ExampleOut(
+        id=example.id,
+        text=example.text,
+        contextual_query=example.contextual_query,
+        also_says=list(taught.conflicts(example)),
     )
 
 

@@ -96,7 +96,11 @@ class LearnRequest(PairIn):
     environment: EnvironmentName
     more: list[PairIn] = Field(default_factory=list, max_length=20)
     examples: list[Command] = Field(
-        default_factory=list, max_length=50, description="Utterances of the first example's query."
+        default_factory=list,
+        max_length=50,
+        description="Utterances of the task. Arguments may be marked: `{1}` stands for the first argument of the first "
+        "example, `{2: the old radio}` for the second in other words. Without marks they are found by the words of "
+        "the examples' arguments, or by what they name in the environment.",
     )
     replace: bool = Field(False, description="Put this template in the place of another one of the task.")
 
@@ -129,6 +133,22 @@ class TemplateOut(BaseModel):
     examples: list[str]
     revision: int
     warnings: list[str]
+
+
+class ExampleOut(BaseModel):
+    """An utterance that a task was taught with."""
+
+    id: str
+    text: str = Field(description="As it was given, with marks if it had any.")
+    contextual_query: str = Field(description="What it says.")
+    also_says: list[str] = Field(description="Other tasks that were taught with the same wording: a conflict.")
+
+
+class ExampleList(BaseModel):
+    """A page of examples."""
+
+    items: list[ExampleOut]
+    next: str | None = Field(description="Pass as `cursor` for the next page; null on the last.")
 
 
 class TemplateList(BaseModel):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,13 @@ from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
-from sqlalchemy import inspect
+from sqlalchemy import JSON, Integer, String, column, insert, inspect
+from sqlalchemy import table as sql_table
 
 from service.errors import (
     EnvironmentExistsError,
     UnknownEnvironmentError,
+    UnknownExampleError,
     UnknownPolicyError,
     UnknownTemplateError,
 )
@@ -24,6 +27,14 @@ from service.store.engine import open_engine
 from service.store.migrate import migrate
 from service.store.policies import PolicyEntry
 from service.store.tables import metadata
+
+OLD_TEMPLATES = sql_table(
+    "templates",
+    *(column(name, String) for name in ("task", "template", "lifted")),
+    *(column(name, JSON) for name in ("kinds", "taught", "pairs", "examples", "warnings")),
+    column("revision", Integer),
+)
+"""As of before the examples had a table of their own."""
 
 
 @pytest.fixture
@@ -84,7 +95,7 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
     command.upgrade(alembic(url), "0002")
     store = Store(url)
     with store.write() as transaction:
-        transaction.templates.put(template("t"))
+        transaction.connection.execute(insert(OLD_TEMPLATES).values(asdict(template("t"))))
         transaction.environments.add("e", "oomdp", {"a": 1})
         old = "INSERT INTO policies (id, environment, ltl, data) VALUES (?, ?, ?, ?)"
         transaction.connection.exec_driver_sql(old, ("p", "e", "F a", b"cqltl\x00p1"))
@@ -101,6 +112,30 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
     migrate(url)
     with store.read() as transaction:
         assert transaction.policies.page(limit=9) == []
+        assert transaction.templates.get("t") == template("t")
+    store.close()
+
+
+def test_what_was_taught_has_a_version_and_examples_can_go_one_by_one(url: str) -> None:
+    store, added = Store(url), StoredExample("get hold of a", "t(a)")
+    taught = replace(template("t"), examples=(*template("t").examples, added))
+    with store.write() as transaction:
+        assert transaction.templates.version() == 0
+        transaction.templates.put(template("t"))
+        transaction.templates.examples.note([(template("t").examples[0].id, b"read"), (added.id, b"not there yet")])
+        transaction.templates.put(taught)
+        assert transaction.templates.version() == 2
+        assert transaction.templates.get("t") == taught
+        assert transaction.templates.examples.readings() == {template("t").examples[0].id: b"read"}
+        transaction.templates.delete_example("t", taught.examples[0].id)
+        assert transaction.templates.get("t") == replace(taught, examples=(added,), revision=2)
+        assert transaction.templates.version() == 3
+        with pytest.raises(UnknownExampleError):
+            transaction.templates.delete_example("t", taught.examples[0].id)
+        transaction.templates.delete("t")
+        assert transaction.templates.every() == {}
+        assert transaction.templates.examples.every() == {}
+        assert transaction.templates.version() == 4
     store.close()
 
 
@@ -116,7 +151,7 @@ def test_rows_come_back_as_they_were_put(url: str) -> None:
     with store.read() as transaction:
         assert transaction.templates.page(limit=9) == [template("a", 2), template("b")]
         assert transaction.templates.page(after="a", limit=9) == [template("b")]
-        assert transaction.templates.examples() == [StoredExample("take a", f"{task}(a)") for task in "ab"]
+        assert list(transaction.templates.every()) == ["a", "b"]
         assert transaction.templates.among(["a", "c"]) == {"a": template("a", 2)}
         assert transaction.templates.among([]) == {}
         assert list(transaction.environments.get("e").data) == ["z", "a"]
