@@ -86,7 +86,14 @@ async def _lifespan(settings: Settings, warm: bool, _app: FastAPI) -> AsyncItera
 
 def _warm(services: Services) -> None:
     """Translate once, so that the first request does not wait for grammars to be compiled."""
-    understand(services, "pick up the sphere", load_environment(toys_spec()), translator=DEFAULT, candidates=1)
+    understand(
+        services,
+        services.known(),
+        "pick up the sphere",
+        load_environment(toys_spec()),
+        translator=DEFAULT,
+        candidates=1,
+    )
 
 
 def _load_the_rest() -> None:

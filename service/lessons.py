@@ -156,9 +156,7 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
-    with services.store.read() as transaction:
-        conflicts = services.taught.of(transaction).conflict_warnings(examples)
-    return Learned(kept, known is None, conflicts)
+    return Learned(kept, known is None, services.known().conflict_warnings(examples))
 
 
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:

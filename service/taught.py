@@ -71,7 +71,7 @@ class TaughtCache:
         self._lock = Lock()
 
     def of(self, transaction: Transaction) -> Taught:
-        """What was taught as the transaction sees it."""
+        """What was taught, as the transaction sees it."""
         version = transaction.templates.version()
         held = self._held
         if held is not None and held.version == version:

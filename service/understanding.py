@@ -22,6 +22,7 @@ from models.queries import Binding, GroundedQuery, Path, Query
 from models.world import Environment
 from service.services import Services
 from service.store import StoredTemplate
+from service.taught import Taught
 from service.translators import DEFAULT
 
 
@@ -57,7 +58,7 @@ class Understanding:
 
 
 def understand(
-    services: Services, text: str, environment: Environment | None, *, translator: str, candidates: int
+    services: Services, taught: Taught, text: str, environment: Environment | None, *, translator: str, candidates: int
 ) -> tuple[Understanding, ...]:
     """Up to `candidates` ways to understand a command, best first; none when no task fits.
 
@@ -75,18 +76,16 @@ def understand(
         formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
         return tuple(map(_of_formula, formulas[:candidates]))
     chosen = services.translators.queries(translator)
-    with services.store.read() as transaction:
-        known = services.taught.of(transaction)
-    wordings = known.wordings if translator == DEFAULT else TaughtTranslator(())
+    wordings = taught.wordings if translator == DEFAULT else TaughtTranslator(())
     if isinstance(chosen, ComposedTranslator):
         chosen = chosen.knowing(wordings)
-    taught = wordings.translate(text, candidates=BEAM_WIDTH)
+    said_as_taught = wordings.translate(text, candidates=BEAM_WIDTH)
     learned = chosen.translate(text, candidates=wanted)
     readings = _merged(
-        read(text, taught, template_of=known.template, environment=environment),
-        rank(text, learned, template_of=known.template, environment=environment),
+        read(text, said_as_taught, template_of=taught.template, environment=environment),
+        rank(text, learned, template_of=taught.template, environment=environment),
     )
-    return tuple(_of_reading(reading, known.stored) for reading in readings[:candidates])
+    return tuple(of_reading(reading, taught.stored) for reading in readings[:candidates])
 
 
 def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
@@ -111,7 +110,8 @@ def _shared(readings: Sequence[Reading]) -> list[Reading]:
     return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]
 
 
-def _of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:
+def of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:
+    """A reading with the warnings of its stored templates."""
     stored = [templates[task.task] for _, task in reading.query.tasks]
     meaning = None if reading.grounded is None else Meaning.of(reading.grounded, stored)
     return Understanding(reading.query, reading.confidence, meaning, reading.refusal)

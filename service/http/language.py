@@ -18,14 +18,18 @@ from service.http.schemas import (
     TranslateRequest,
     TranslateResponse,
 )
-from service.http.views import bindings_out, location, query_in, query_out, template_out, translated_out
+from service.http.views import answers_in, bindings_out, location, query_in, query_out, template_out, translated_out
 from service.lessons import Lesson, learn_template
 from service.pipeline import ground, translate
 
 router = APIRouter(tags=["language"])
 
 
-@router.post("/translate", operation_id="translate", responses=refusals(*BODY, "unknown-environment", "text-too-long"))
+@router.post(
+    "/translate",
+    operation_id="translate",
+    responses=refusals(*BODY, "unknown-environment", "text-too-long", "wrong-answer"),
+)
 def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
     return translated_out(
@@ -35,6 +39,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
             environment=body.environment,
             translator=body.translator,
             candidates=body.candidates,
+            answers=answers_in(body.answers),
         )
     )
 

@@ -22,7 +22,7 @@ from service.http.schemas import (
     TrajectoryStep,
     VerifiedOut,
 )
-from service.http.views import bindings_out, environment_data, query_in, query_out
+from service.http.views import answers_in, bindings_out, environment_data, query_in, query_out
 from service.pipeline import Planned, PlanOrder, plan
 
 router = APIRouter(tags=["planning"])
@@ -41,6 +41,7 @@ router = APIRouter(tags=["planning"])
         "text-too-long",
         "not-understood",
         "ambiguous-command",
+        "wrong-answer",
         "formula-syntax",
         "formula-too-large",
         "model-too-large",
@@ -56,6 +57,7 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
     spec = body.environment_spec
     order = PlanOrder(
         text=body.text,
+        answers=answers_in(body.answers),
         query=body.contextual_query if body.query is None else query_in(body.query),
         ltl=body.ltl,
         environment=body.environment,

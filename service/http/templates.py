@@ -45,7 +45,7 @@ def get_examples(task: str, services: ServicesDep, cursor: Cursor = "", limit: L
     """List the utterances that a task was taught with, in order of their ids."""
     with services.store.read() as transaction:
         stored = transaction.templates.get(task)
-        taught = services.taught.of(transaction)
+    taught = services.known()
     rest = sorted((example for example in stored.examples if example.id > cursor), key=lambda example: example.id)
     page, cursor_after = page_of(rest[: limit + 1], limit, lambda example: example.id)
     return ExampleList(items=[example_out(example, taught) for example in page], next=cursor_after)

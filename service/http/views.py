@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Any
 from urllib.parse import quote
 
 from models.errors import Place
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, Composition, ContextualQuery, Operator, Query, pointer_of
+from models.queries import Composition, ContextualQuery, Operator, Query, pointer_of
 from models.world import Environment, EnvironmentSpec, explain
-from service.http.problems import ErrorPlace
 from service.http.schemas import (
+    AnswerIn,
     BindingOut,
     CandidateOut,
     ContextualQueryTree,
+    ErrorPlace,
     ExampleOut,
     PairOut,
     ParameterOut,
@@ -24,6 +26,7 @@ from service.http.schemas import (
 )
 from service.pipeline import Translated
 from service.places import at
+from service.questions import Answer
 from service.store import StoredExample, StoredTemplate
 from service.taught import Taught
 from service.understanding import Meaning, Understanding
@@ -102,6 +105,11 @@ def example_out(example: StoredExample, taught: Taught) -> ExampleOut:
     )
 
 
+def answers_in(sent: Sequence[AnswerIn]) -> tuple[Answer, ...]:
+    """The answers that were sent."""
+    return tuple(Answer(answer.choice, answer.part, answer.argument) for answer in sent)
+
+
 def translated_out(translated: Translated) -> TranslateResponse:
     """A translation; its first reading is spelled out beside the list of candidates."""
     candidates = [_candidate(reading, translated.environment) for reading in translated.readings]
@@ -115,7 +123,7 @@ def translated_out(translated: Translated) -> TranslateResponse:
         explanation=best.explanation if best else None,
         bindings=best.bindings if best else [],
         candidates=candidates,
-        question=_question(translated),
+        question=None if translated.question is None else QuestionOut.of(translated.question),
         warnings=best.warnings if best else [],
         issues=best.issues if best else [],
     )
@@ -140,15 +148,3 @@ def _issues(reading: Understanding) -> list[ErrorPlace]:
     pointer = "/ltl" if reading.query is None else "/contextual_query"
     places = reading.refusal.places or (Place("", reading.refusal.detail),)
     return [ErrorPlace(pointer=pointer + place.pointer, detail=place.detail) for place in places]
-
-
-def _question(translated: Translated) -> QuestionOut | None:
-    refusal = translated.readings[0].refusal if translated.readings else None
-    if not isinstance(refusal, AmbiguousGroundingError):
-        return None
-    return QuestionOut(
-        part=refusal.places[0].pointer.rpartition("/arguments/")[0] if refusal.places else "",
-        argument=refusal.position,
-        text=f"which {refusal.phrase}?",
-        choices=list(refusal.choices),
-    )

@@ -1,6 +1,14 @@
 """Shapes of requests and responses (docs/http.md), by resource."""
 
-from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request
+from service.http.schemas.common import (
+    AnswerIn,
+    BindingOut,
+    ContextualQueryTree,
+    ErrorPlace,
+    Health,
+    QuestionOut,
+    Request,
+)
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.language import (
     BatchRequest,
@@ -14,7 +22,6 @@ from service.http.schemas.language import (
     PairIn,
     PairOut,
     ParameterOut,
-    QuestionOut,
     TemplateList,
     TemplateOut,
     TranslateRequest,
@@ -48,6 +55,7 @@ from service.http.schemas.policies import (
 )
 
 __all__ = [
+    "AnswerIn",
     "AutomatonOut",
     "BatchRequest",
     "BatchResponse",
@@ -58,6 +66,7 @@ __all__ = [
     "EnvironmentList",
     "EnvironmentOut",
     "EnvironmentSummary",
+    "ErrorPlace",
     "ExampleList",
     "ExampleOut",
     "GroundRequest",

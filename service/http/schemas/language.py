@@ -6,14 +6,16 @@ from typing import Literal, Self
 
 from pydantic import BaseModel, Field, model_validator
 
-from service.http.problems import ErrorPlace
 from service.http.schemas.common import (
+    Answers,
     BindingOut,
     Command,
     ContextualQueryTree,
     EnvironmentName,
+    ErrorPlace,
     FormulaText,
     QueryText,
+    QuestionOut,
     Request,
     TranslatorName,
 )
@@ -26,6 +28,7 @@ class TranslateRequest(Request):
     environment: EnvironmentName | None = Field(None, description="Where to ground; without it `ltl` is null.")
     translator: TranslatorName = "default"
     candidates: int = Field(1, ge=1, le=10, description="How many readings to return at most.")
+    answers: Answers = Field(default_factory=list, max_length=16)
 
 
 class BatchRequest(Request):
@@ -50,15 +53,6 @@ class CandidateOut(BaseModel):
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
     issues: list[ErrorPlace] = Field(description="Why there is no `ltl`.")
-
-
-class QuestionOut(BaseModel):
-    """A question to ask back."""
-
-    part: str = Field(description="JSON pointer of its task within the query; empty where it is not composed.")
-    argument: int = Field(description="Position of the argument in doubt, from 1.")
-    text: str
-    choices: list[str]
 
 
 class TranslateResponse(BaseModel):
