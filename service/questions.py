@@ -161,13 +161,11 @@ def _things(template: Template, argument: int, environment: Environment) -> list
 
 
 def _description(symbol: Symbol, environment: Environment) -> str:
-    """ "cylinder, a small red toy": the name, what never changes of it, and its class."""
-    name, kind = symbol.name.replace("_", " "), symbol.kind.replace("_", " ")
-    static = environment.vocabulary.static.get(symbol, {})
-    said = sorted(
-        value.name.replace("_", " ") for value in static.values() if not environment.vocabulary.is_object(value)
-    )
-    return f"{name}, a {' '.join([*said, kind])}" if name != kind or said else name
+    """The name, the class, and what never changes of it: "cylinder: a toy, red, small"."""
+    is_object = environment.vocabulary.is_object
+    static = environment.vocabulary.static.get(symbol, {}).values()
+    values = [value.name for value in static if value.name != symbol.name and not is_object(value)]
+    return ", ".join([f"{symbol.name}: a {symbol.kind}", *values]).replace("_", " ")
 
 
 def _reread(text: str, reading: Understanding, taught: Taught, environment: Environment | None) -> Understanding:

@@ -51,7 +51,7 @@ def test_a_phrase_that_fits_several_is_asked_back(client: httpx.Client, two_boxe
         "argument": 2,
         "text": "which box?",
         "choices": ["small_box", "large_box"],
-        "says": ["small box, a box", "large box, a box"],
+        "says": ["small box: a box", "large box: a box"],
     }
     problem = check_problem(
         client.post("/plan", json={"text": SHIP, "environment": two_boxes}), "ambiguous-command", 422, ["/text"]
@@ -81,7 +81,7 @@ def test_an_unknown_word_is_asked_about_with_what_makes_sense_in_its_place(clien
     assert (question["about"], question["argument"], question["text"]) == ("thing", 1, 'what is "gizmo"?')
     assert set(question["choices"]) >= {"sphere", "cylinder", "orange", "bag"}
     assert "kitchen" not in question["choices"]
-    assert question["says"][question["choices"].index("cylinder")] == "cylinder, a cylinder red small toy"
+    assert question["says"][question["choices"].index("cylinder")] == "cylinder: a toy, red, small"
     chosen = {"choice": "bag", "argument": 1}
     assert ask(client, "pick up the gizmo", "toys", chosen)["ltl"] == "F holding(bag)"
 
