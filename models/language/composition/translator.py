@@ -71,12 +71,22 @@ class ComposedTranslator:
             return ()
         understand = _Clauses(self.single, self.taught)
         whole = understand.alone(text)
-        certain = understood(whole) >= ALONE
-        if certain and _in_one_clause(whole[0].query):
-            return whole[:candidates]
         shapes, refusal = self._shapes(spoken)
-        if certain and _in_sequence(shapes) >= ALONE:
-            return whole[:candidates]
+        if understood(whole) >= ALONE:
+            if _outvoted(understood(whole), refusal):
+                return ()
+            if _in_one_clause(whole[0].query) or _in_sequence(shapes) >= ALONE:
+                return whole[:candidates]
+        found = self._weighed(whole, shapes, understand)
+        if sum(found.values()) <= refusal:
+            return ()
+        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
+        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+
+    def _weighed(
+        self, whole: Sequence[Translation], shapes: Sequence[_Shape], understand: Understand
+    ) -> dict[Query, float]:
+        """The queries that the shapes give, and those of the text as one task, with their probabilities."""
         one_task, alone = understood(whole), 0.0
         found: dict[Query, float] = {}
         for shape, clauses, before, share in shapes:
@@ -92,10 +102,7 @@ class ComposedTranslator:
             found = {}
         for translation in whole:
             found[translation.query] = found.get(translation.query, 0.0) + alone * translation.confidence
-        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
-        if sum(found.values()) <= refusal:
-            return ()
-        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+        return found
 
     def _composed(
         self, shape: str, clauses: Sequence[Clause], before: Sequence[str], understand: Understand
@@ -160,6 +167,13 @@ class _Clauses:
         new = [text for text in dict.fromkeys(texts) if text not in self._read]
         if new:
             self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
+
+
+def _outvoted(understood: float, refusal: float) -> bool:
+    """Whether a text that one network understands asks for nothing, as the other network says with more confidence: the
+    two saw different texts in training, so their odds are multiplied.
+    """
+    return understood * (1.0 - refusal) < (1.0 - understood) * refusal
 
 
 def _in_one_clause(query: Query) -> bool:
