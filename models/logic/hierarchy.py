@@ -32,11 +32,11 @@ _PLAIN = {
     PropertyClass.ALWAYS: "asks for nothing",
     PropertyClass.BOUNDED: "is decided after a fixed number of steps",
     PropertyClass.GUARANTEE: "can be finished: once it is done, nothing that follows undoes it",
-    PropertyClass.SAFETY: "must be kept for ever: it can be broken at any time, and is never finished",
-    PropertyClass.OBLIGATION: "has things to finish and things to keep for ever",
-    PropertyClass.RECURRENCE: "must be done again and again, for ever",
-    PropertyClass.PERSISTENCE: "must be kept for ever from some time on",
-    PropertyClass.REACTIVITY: "mixes what is done again and again with what is kept from some time on",
+    PropertyClass.SAFETY: "must be kept up: once it is broken, nothing that follows mends it",
+    PropertyClass.OBLIGATION: "combines what can be finished with what must be kept for ever",
+    PropertyClass.RECURRENCE: "depends on what is done again and again, for ever",
+    PropertyClass.PERSISTENCE: "depends on what is kept for ever from some time on",
+    PropertyClass.REACTIVITY: "depends on what is done again and again and on what is kept from some time on",
 }
 
 _LETTERS = {

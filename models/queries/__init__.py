@@ -26,7 +26,7 @@ from models.queries.errors import (
     UnusedParameterError,
 )
 from models.queries.evaluation import GroundedQuery, Path, evaluate_query, pointer_of
-from models.queries.explanation import QueryPart, check_words, explain_query
+from models.queries.explanation import MAX_WORDS, QueryPart, check_words, explain_query
 from models.queries.learning import Example, learn
 from models.queries.lifting import LiftedFormula, lift, resolve_grounded
 from models.queries.meaning import compose
@@ -39,6 +39,7 @@ __all__ = [
     "MAX_NESTING",
     "MAX_PARTS",
     "MAX_QUERY_TEXT",
+    "MAX_WORDS",
     "OPERATORS",
     "AmbiguousGroundingError",
     "AmbiguousParameterMappingError",

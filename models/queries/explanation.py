@@ -116,7 +116,7 @@ class _Composer:
                 later = [f"and then {thing}" for thing in things[1:]]
                 return Said(", ".join([said[0].within(Level.PREFIX), *later]), Level.PHRASE)
             case Operator.WITHOUT:
-                return Said(f"{said[0].within(Level.PREFIX)}, but not so that {things[1]} then", Level.PHRASE)
+                return Said(f"{said[0].within(Level.PREFIX)} while it is not so that {things[1]}", Level.PHRASE)
             case Operator.AVOID:
                 return Said(f"it never happens that {things[0]}", Level.PREFIX)
             case _:

@@ -129,14 +129,26 @@ class Speaker:
                     return (yield from self._behind("again and again", inner, denied))
                 return (yield from self._sequence("again and again", None, steps_of(inner)))
             case Binary(op=Op.IMPLIES, left=left, right=right) if not denied:
-                condition = yield left, False
-                said = yield right, False
-                text = f"whenever {condition.within(Level.PREFIX)}, {said.within(Level.PHRASE)}"
-                return Said(text, Level.PHRASE)
+                return (yield from self._whenever(left, right))
+            case Nary(op=Op.OR, operands=operands) if not denied and (ruled_out := _denied_of(operands)):
+                if len(ruled_out) == len(operands):
+                    items = []
+                    for one in ruled_out:
+                        items.append((yield one, False))
+                    return Said(f"never {joined('and', items).within(Level.PREFIX)}", Level.PREFIX)
+                if len(operands) == 2:
+                    (other,) = (one for one in operands if not _is_denial(one))
+                    return (yield from self._whenever(ruled_out[0], other))
+                return (yield from self._behind("always", operand, denied))
             case Nary() | Binary() if denied and operand.op not in (Op.IMPLIES, Op.IFF):
                 return (yield from self._behind("never", operand, False))
             case _:
                 return (yield from self._behind("always", operand, denied))
+
+    def _whenever(self, left: Formula, right: Formula) -> _Reading:
+        condition, said = (yield left, False), (yield right, False)
+        text = f"whenever {condition.within(Level.PREFIX)}, {said.within(Level.PHRASE)}"
+        return Said(text, Level.PHRASE)
 
     def _sequence(self, head: str, guard: Formula | None, steps: Sequence[Step]) -> _Reading:
         """Steps one after the other, the first behind `head`; `guard` has to hold until then."""
@@ -269,6 +281,15 @@ def _positive(formula: Formula, denied: bool) -> _Wanted:
     while isinstance(formula, Unary) and formula.op is Op.NOT:
         formula, denied = formula.operand, not denied
     return formula, denied
+
+
+def _is_denial(formula: Formula) -> bool:
+    return isinstance(formula, Unary) and formula.op is Op.NOT
+
+
+def _denied_of(operands: Sequence[Formula]) -> list[Formula]:
+    """What the operands that are negations deny."""
+    return [one.operand for one in operands if isinstance(one, Unary) and one.op is Op.NOT]
 
 
 def _is_lasting(formula: Formula) -> bool:

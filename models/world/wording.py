@@ -50,13 +50,16 @@ def word_atoms(atoms: Iterable[Atom], environment: Environment | None) -> dict[A
 
 def spoken_symbol(symbol: Symbol, vocabulary: Vocabulary, kinds: frozenset[str] | None = None) -> str:
     """What a symbol is called in a sentence, without an article: spaces for underscores; with its kind, or in quotes,
-    where something else of the given kinds is called so too.
+    where something else of the given kinds is called so too. Without kinds, an object is told from the other objects,
+    and a value from the other values.
     """
     plain = readable(symbol.name)
     rivals = [
         other
         for other in vocabulary.loosely_named(symbol.name)
-        if other != symbol and (kinds is None or other.kind in kinds) and readable(other.name) == plain
+        if other != symbol
+        and (vocabulary.is_object(other) is vocabulary.is_object(symbol) if kinds is None else other.kind in kinds)
+        and readable(other.name) == plain
     ]
     if any(other.name == symbol.name for other in rivals):
         return f"{readable(symbol.kind)} {plain}"
@@ -73,10 +76,12 @@ def needs_article(symbol: Symbol, spoken: str, vocabulary: Vocabulary) -> bool:
 
 def fill(text: str, names: Mapping[str, tuple[str, bool]]) -> str:
     """The holes of a text filled at once, each with a name and whether "the" belongs before it; what stands before the
-    hole may make it needless: "the {x}", "the toy {x}".
+    hole may make it needless: "the {x}", "the toy {x}". Braces around anything else stay as they are.
     """
 
     def filled(hole: re.Match[str]) -> str:
+        if hole[1] not in names:
+            return hole[0]
         name, article = names[hole[1]]
         before = text[: hole.start()]
         bare = before != "" and not before.endswith(" ")

@@ -52,6 +52,7 @@ STATUS: dict[str, int] = {
     "too-many-examples": 422,
     "example-argument-not-found": 422,
     "example-too-general": 422,
+    "invalid-explanation": 422,
     # language
     "text-too-long": 422,
     "not-understood": 422,

@@ -29,6 +29,8 @@ templates = Table(
     Column("examples", JSON, nullable=False),  # utterances of the task with their queries
     Column("warnings", JSON, nullable=False),
     Column("revision", Integer, nullable=False),
+    Column("reading", Text, nullable=False),  # the formula in English, with slots; empty when not known
+    Column("explanation", Text, nullable=False),  # the words that were taught for it, likewise
 )
 
 policies = Table(

@@ -2,6 +2,7 @@
 
 from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
+from service.http.schemas.explanations import ExplainRequest, ExplainResponse, ExplanationPart, KindOut
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
@@ -56,9 +57,13 @@ __all__ = [
     "EnvironmentList",
     "EnvironmentOut",
     "EnvironmentSummary",
+    "ExplainRequest",
+    "ExplainResponse",
+    "ExplanationPart",
     "GroundRequest",
     "GroundResponse",
     "Health",
+    "KindOut",
     "LearnRequest",
     "ModelSize",
     "PairIn",
