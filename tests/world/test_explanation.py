@@ -5,6 +5,7 @@ import copy
 import re
 import sys
 from itertools import product
+from pathlib import Path
 
 import pytest
 import spot
@@ -392,3 +393,13 @@ def test_a_reading_takes_time_in_proportion_to_the_formula(monkeypatch):
             break
     explain(formula)
     assert len(read) <= len(set(walk(formula)))
+
+
+def test_the_table_of_readings_in_the_documents():
+    text = (Path(__file__).parents[2] / "docs" / "ltl.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (`.*`) \| (.*) \|$", text.partition("## In plain English")[2], re.MULTILINE)
+    assert len(rows) > 20
+    for formulas, documented in rows:
+        found = [parse(formula.replace("\\|", "|")) for formula in re.findall("`([^`]*)`", formulas)]
+        assert "; ".join(dict.fromkeys(map(explain, found))) == documented
+        assert len(found) == len(documented.split("; ")) or all(equivalent(found[0], other) for other in found)
