@@ -13,8 +13,8 @@ from models.errors import CqltlError, Place
 from models.language import ExampleArgumentNotFoundError, Utterance, Wording, find_arguments, is_marked
 from models.logic import FormulaTooLargeError, parse
 from models.logic import to_text as formula_text
-from models.queries import ContextualQuery, Example, Template, learn, parse_task
-from models.world import Environment
+from models.queries import ContextualQuery, Example, Template, check_words, learn, parse_task
+from models.world import Environment, explain
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
@@ -29,7 +29,9 @@ MAX_EVIDENCE = 100
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """What `/learn` is given: a contextual query and grounded LTL, further such pairs, and utterances."""
+    """What `/learn` is given: a contextual query and grounded LTL, further such pairs, utterances, and the words in
+    which the task is read back, with slots for its arguments.
+    """
 
     query: str
     ltl: str
@@ -37,6 +39,7 @@ class Lesson:
     more: tuple[tuple[str, str], ...] = ()
     examples: tuple[str, ...] = ()
     replace: bool = False
+    explanation: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +66,8 @@ async def learn_template(services: Services, lesson: Lesson) -> Learned:
         warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
     except (OutOfTimeError, FormulaTooLargeError) as error:
         warnings = (f"the template was not checked for a simpler form: {error.detail}",)
-    return await run_sync(_keep, services, lesson, template, examples, warnings)
+    reading = explain(template.formula, environment.value)
+    return await run_sync(_keep, services, lesson, template, examples, warnings, reading)
 
 
 def _derive(services: Services, lesson: Lesson) -> tuple[Template, LoadedEnvironment, tuple[StoredExample, ...]]:
@@ -71,6 +75,9 @@ def _derive(services: Services, lesson: Lesson) -> tuple[Template, LoadedEnviron
         environment = services.environment(lesson.environment)
     pairs = [_read_pair(lesson.query, lesson.ltl, "")]
     pairs += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
+    if lesson.explanation is not None:
+        with at("/explanation"):
+            check_words(lesson.explanation, len(pairs[0].query.arguments))
     try:
         template = learn(pairs, environment.value)
     except CqltlError as error:
@@ -126,6 +133,7 @@ def _keep(
     template: Template,
     examples: tuple[StoredExample, ...],
     warnings: tuple[str, ...],
+    reading: str,
 ) -> Learned:
     pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
     pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
@@ -139,6 +147,8 @@ def _keep(
         examples=examples,
         warnings=warnings,
         revision=1,
+        reading=reading,
+        explanation="" if lesson.explanation is None else check_words(lesson.explanation, template.arity),
     )
     with services.store.write() as transaction:
         known = transaction.templates.find(template.task)
@@ -160,20 +170,28 @@ def _keep(
 
 
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
-    """The new template in place of the known one; how people say the task stays known if its arguments are as many."""
+    """The new template in place of the known one; how people say the task stays known if its arguments are as many.
+    What it is read back as does not: that was said of another formula.
+    """
     examples = known.examples if known.arity == new.arity else ()
     kept = _within(dict.fromkeys(examples + new.examples))
     return replace(new, examples=kept, revision=known.revision + 1)
 
 
 def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
-    """The known template with what the new lesson adds to its pairs and utterances."""
+    """The known template with what the new lesson adds to its pairs and utterances, and says of it in words."""
     pairs = _within(dict.fromkeys(known.pairs + new.pairs))
     examples = _within(dict.fromkeys(known.examples + new.examples))
     taught = _both(known.taught, new.taught)
-    if (pairs, examples, taught) == (known.pairs, known.examples, known.taught):
-        return known
-    return replace(known, pairs=pairs, examples=examples, taught=taught, revision=known.revision + 1)
+    kept = replace(
+        known,
+        pairs=pairs,
+        examples=examples,
+        taught=taught,
+        reading=known.reading or new.reading,
+        explanation=new.explanation or known.explanation,
+    )
+    return known if kept == known else replace(kept, revision=known.revision + 1)
 
 
 def _both(known: tuple[tuple[str, ...], ...], new: tuple[tuple[str, ...], ...]) -> tuple[tuple[str, ...], ...]:

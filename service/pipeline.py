@@ -115,8 +115,8 @@ def ground(services: Services, query: str | Query, environment: str) -> tuple[En
     """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment."""
     with at("/environment"):
         world = services.environment(environment).value
-    with at(_pointer(query)):
-        return world, _ground_query(services, query, world)
+    with at(query_pointer(query)):
+        return world, ground_query(services, query, world)
 
 
 async def plan(services: Services, order: PlanOrder) -> Planned:
@@ -145,7 +145,8 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
     return Planned(meaning, environment.value, answer, policy_id)
 
 
-def _ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
+def ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
+    """What a contextual query, as text or in parts, means in an environment by the stored templates."""
     query = parse_query(said) if isinstance(said, str) else said
     with services.store.read() as transaction:
         stored = {task.task: transaction.templates.get(task.task) for _, task in query.tasks}
@@ -170,7 +171,7 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, M
         if order.ltl is not None:
             return environment, Meaning(resolve_grounded(parse(order.ltl), environment.value))
         assert order.query is not None
-        return environment, _ground_query(services, order.query, environment.value)
+        return environment, ground_query(services, order.query, environment.value)
 
 
 def _meaning_of(services: Services, order: PlanOrder, environment: Environment) -> Meaning:
@@ -199,10 +200,11 @@ def _source(order: PlanOrder) -> str:
     """The pointer of the member that says what to do."""
     if order.text is not None:
         return "/text"
-    return "/ltl" if order.query is None else _pointer(order.query)
+    return "/ltl" if order.query is None else query_pointer(order.query)
 
 
-def _pointer(query: str | Query) -> str:
+def query_pointer(query: str | Query) -> str:
+    """The pointer of the member that has the query."""
     return "/contextual_query" if isinstance(query, str) else "/query"
 
 

@@ -18,8 +18,8 @@ from models.language.reading import (
     read,
 )
 from models.logic import Formula
-from models.queries import Binding, GroundedQuery, Path, Query
-from models.world import Environment
+from models.queries import Binding, GroundedQuery, Path, Query, explain_query
+from models.world import Environment, explain
 from service.services import Services
 from service.store import StoredTemplate
 from service.taught import Taught
@@ -28,20 +28,38 @@ from service.translators import DEFAULT
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A formula; and unless it was said as a formula, the query, what its arguments were bound to (each with the path
-    of its task), and the warnings of the templates.
+    """A formula; and unless it was said as a formula, the query as it was grounded, the warnings of the templates, and
+    by task the words that were taught for it.
     """
 
     formula: Formula
-    query: Query | None = None
-    bindings: tuple[tuple[Path, Binding], ...] = ()
+    grounded: GroundedQuery | None = None
     warnings: tuple[str, ...] = ()
+    words: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def query(self) -> Query | None:
+        """The query, unless it was said as a formula."""
+        return None if self.grounded is None else self.grounded.query
+
+    @property
+    def bindings(self) -> tuple[tuple[Path, Binding], ...]:
+        """What the arguments of the query were bound to, each with the path of its task."""
+        return () if self.grounded is None else self.grounded.bindings
+
+    def explanation(self, environment: Environment | None) -> str:
+        """What it asks for, in the words that were taught for its tasks, else as its formula reads."""
+        if self.grounded is None or not self.words:
+            return explain(self.formula, environment)
+        return explain_query(self.grounded, dict(self.words), environment).explanation
 
     @classmethod
     def of(cls, grounded: GroundedQuery, stored: Iterable[StoredTemplate]) -> Meaning:
         """The meaning of a query that was put into its templates."""
-        warnings = dict.fromkeys(warning for template in stored for warning in template.warnings)
-        return cls(grounded.formula, grounded.query, grounded.bindings, tuple(warnings))
+        templates = tuple(stored)
+        warnings = dict.fromkeys(warning for template in templates for warning in template.warnings)
+        words = {template.task: template.explanation for template in templates if template.explanation}
+        return cls(grounded.formula, grounded, tuple(warnings), tuple(words.items()))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from models.errors import CqltlError, Place
@@ -18,11 +18,14 @@ Path = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class GroundedQuery:
-    """A query evaluated: grounded LTL and the binding of every argument, with the path of its task."""
+    """A query evaluated: grounded LTL and the binding of every argument, with the path of its task; and the formula of
+    every part by its path.
+    """
 
     query: Query
     formula: Formula
     bindings: tuple[tuple[Path, Binding], ...]
+    parts: tuple[tuple[Path, Formula], ...]
 
 
 def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> GroundedQuery:
@@ -47,16 +50,18 @@ def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTas
     if doubt is not None:
         raise doubt
     bindings = tuple((path, binding) for path, task in tasks.items() for binding in task.bindings)
-    return GroundedQuery(query, _formula(query, tasks, ()), bindings)
+    formulas = {path: task.formula for path, task in tasks.items()}
+    return GroundedQuery(query, _formula(query, formulas, ()), bindings, tuple(formulas.items()))
 
 
-def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path) -> Formula:
-    """The formula of the part at a path."""
+def _formula(query: Query, formulas: dict[Path, Formula], path: Path) -> Formula:
+    """The formula of the part at a path, which is noted, as are those of its parts; those of tasks are known."""
     if isinstance(query, ContextualQuery):
-        return tasks[path].formula
-    operands = [_formula(operand, tasks, (*path, place)) for place, operand in enumerate(query.operands)]
+        return formulas[path]
+    operands = [_formula(operand, formulas, (*path, place)) for place, operand in enumerate(query.operands)]
     try:
-        return compose(query.operator, operands)
+        formulas[path] = compose(query.operator, operands)
+        return formulas[path]
     except CompositionError as error:
         detail = f"{query}: {error.detail}"
         raise CompositionError(detail, places=[Place(pointer_of(path), detail)]) from None

@@ -17,6 +17,7 @@ from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.oomdp import OomdpWorld
+from models.world.outline import Part, outline
 from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import ProjectedWorld, Projection, relevant_part
 from models.world.resolution import atom_symbols, distinct_name, resolve
@@ -42,6 +43,7 @@ __all__ = [
     "OomdpSpec",
     "OomdpWorld",
     "Outcomes",
+    "Part",
     "PartOfSpeech",
     "ProjectedWorld",
     "Projection",
@@ -65,6 +67,7 @@ __all__ = [
     "ground",
     "load_environment",
     "navigation_spec",
+    "outline",
     "reachable_part",
     "relevant_part",
     "resolve",

@@ -6,7 +6,6 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Response
 
 from models.logic import to_text as formula_text
-from models.world import explain
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
 from service.http.schemas import (
     BatchRequest,
@@ -93,6 +92,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
             "example-argument-not-found",
             "example-mark",
             "example-too-general",
+            "invalid-explanation",
             "too-many-examples",
             "out-of-time",
             "overloaded",
@@ -108,6 +108,7 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
         more=tuple((pair.contextual_query, pair.ltl) for pair in body.more),
         examples=tuple(body.examples),
         replace=body.replace,
+        explanation=body.explanation,
     )
     learned = await learn_template(services, lesson)
     response.status_code = 201 if learned.created else 200
@@ -129,7 +130,7 @@ async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundRespo
     return GroundResponse(
         contextual_query=query_out(meaning.query),
         ltl=formula_text(meaning.formula),
-        explanation=explain(meaning.formula, environment),
+        explanation=meaning.explanation(environment),
         bindings=bindings_out(meaning),
         warnings=list(meaning.warnings),
     )

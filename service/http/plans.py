@@ -8,7 +8,6 @@ import time
 from fastapi import APIRouter
 
 from models.logic import to_text as formula_text
-from models.world import explain
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
 from service.http.schemas import (
     Bounds,
@@ -108,7 +107,7 @@ def _plan_out(planned: Planned, order: PlanOrder, seconds: float) -> PlanRespons
         objective=order.objective,
         contextual_query=None if meaning.query is None else query_out(meaning.query),
         ltl=formula_text(meaning.formula),
-        explanation=explain(meaning.formula, planned.environment),
+        explanation=meaning.explanation(planned.environment),
         bindings=bindings_out(meaning),
         warnings=list(meaning.warnings),
         environment=planned.environment.name,

@@ -56,6 +56,7 @@ STATUS: dict[str, int] = {
     "example-argument-not-found": 422,
     "example-mark": 422,
     "example-too-general": 422,
+    "invalid-explanation": 422,
     # language
     "text-too-long": 422,
     "not-understood": 422,

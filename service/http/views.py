@@ -10,7 +10,7 @@ from urllib.parse import quote
 from models.errors import Place
 from models.logic import to_text as formula_text
 from models.queries import Composition, ContextualQuery, Operator, Query, pointer_of
-from models.world import Environment, EnvironmentSpec, explain
+from models.world import Environment, EnvironmentSpec
 from service.http.schemas import (
     AnswerIn,
     BindingOut,
@@ -85,6 +85,8 @@ def template_out(stored: StoredTemplate, *further_warnings: str) -> TemplateOut:
             for position, (kinds, taught) in enumerate(zip_longest(stored.kinds, stored.taught, fillvalue=()), start=1)
         ],
         template=stored.template,
+        explanation=stored.words,
+        reading=stored.reading,
         lifted=stored.lifted,
         pairs=[
             PairOut(contextual_query=p.contextual_query, ltl=p.ltl, environment=p.environment) for p in stored.pairs
@@ -135,7 +137,7 @@ def _candidate(reading: Understanding, environment: Environment | None) -> Candi
         contextual_query=None if reading.query is None else query_out(reading.query),
         ltl=None if meaning is None else formula_text(meaning.formula),
         confidence=round(reading.confidence, 4),  # what float32 gives alike on every machine
-        explanation=None if meaning is None or environment is None else explain(meaning.formula, environment),
+        explanation=None if meaning is None or environment is None else meaning.explanation(environment),
         bindings=[] if meaning is None else bindings_out(meaning),
         warnings=[] if meaning is None else list(meaning.warnings),
         issues=_issues(reading),

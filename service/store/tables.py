@@ -28,6 +28,8 @@ templates = Table(
     Column("pairs", JSON, nullable=False),  # what it was learned from
     Column("warnings", JSON, nullable=False),
     Column("revision", Integer, nullable=False),
+    Column("reading", Text, nullable=False),  # the formula in English, with slots; empty when not known
+    Column("explanation", Text, nullable=False),  # the words that were taught for it, likewise
 )
 
 examples = Table(

@@ -31,7 +31,8 @@ class StoredPair:
 @dataclass(frozen=True, slots=True)
 class StoredTemplate:
     """The template of one task. `kinds` and `taught` hold a sorted tuple of kinds per argument; `taught` is empty when
-    it is not known.
+    it is not known. `reading` is the formula in English with slots such as `{1}`, empty in stores of before 0.3;
+    `explanation` the words that were taught for it, empty when none were.
     """
 
     task: str
@@ -43,6 +44,13 @@ class StoredTemplate:
     examples: tuple[StoredExample, ...]
     warnings: tuple[str, ...]
     revision: int
+    reading: str = ""
+    explanation: str = ""
+
+    @property
+    def words(self) -> str:
+        """What the task says, with slots for its arguments: the words that were taught, else the formula's reading."""
+        return self.explanation or self.reading
 
     @property
     def arity(self) -> int:
@@ -142,4 +150,6 @@ def _read(row: Row[Any], examples: tuple[StoredExample, ...]) -> StoredTemplate:
         examples=examples,
         warnings=tuple(row.warnings),
         revision=row.revision,
+        reading=row.reading,
+        explanation=row.explanation,
     )

@@ -10,6 +10,7 @@ from service.http.schemas.common import (
     Request,
 )
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
+from service.http.schemas.explanations import ExplainRequest, ExplainResponse, ExplanationPart, KindOut
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
@@ -69,9 +70,13 @@ __all__ = [
     "ErrorPlace",
     "ExampleList",
     "ExampleOut",
+    "ExplainRequest",
+    "ExplainResponse",
+    "ExplanationPart",
     "GroundRequest",
     "GroundResponse",
     "Health",
+    "KindOut",
     "LearnRequest",
     "ModelSize",
     "PairIn",

@@ -6,6 +6,7 @@ from typing import Literal, Self
 
 from pydantic import BaseModel, Field, model_validator
 
+from models.queries import MAX_WORDS
 from service.http.schemas.common import (
     Answers,
     BindingOut,
@@ -49,7 +50,10 @@ class CandidateOut(BaseModel):
         "From `ltl-copynet` without an environment: as the network wrote it."
     )
     confidence: float = Field(description="Probability of this reading, in the environment if one is named.")
-    explanation: str | None = Field(description="The formula read back in English.")
+    explanation: str | None = Field(
+        description="What was understood, in English, to be confirmed: in the words that were taught, else as the "
+        "formula reads."
+    )
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
     issues: list[ErrorPlace] = Field(description="Why there is no `ltl`.")
@@ -97,6 +101,12 @@ class LearnRequest(PairIn):
         "the examples' arguments, or by what they name in the environment.",
     )
     replace: bool = Field(False, description="Put this template in the place of another one of the task.")
+    explanation: str | None = Field(
+        None,
+        max_length=MAX_WORDS,
+        examples=["the {1} ends up in the {2}"],
+        description="What the task is read back as, with a slot for each argument; by default as its formula reads.",
+    )
 
 
 class ParameterOut(BaseModel):
@@ -122,6 +132,10 @@ class TemplateOut(BaseModel):
     arity: int
     parameters: list[ParameterOut]
     template: str = Field(description="Templated LTL.")
+    explanation: str = Field(
+        description="What it is read back as, with slots such as `{1}`: the words that were taught, else `reading`."
+    )
+    reading: str = Field(description="Its formula in English; empty when it was learned before readings were kept.")
     lifted: str = Field(description="Lifted LTL of the first example.")
     pairs: list[PairOut]
     examples: list[str]
@@ -171,6 +185,6 @@ class GroundResponse(BaseModel):
 
     contextual_query: ContextualQueryTree
     ltl: str
-    explanation: str
+    explanation: str = Field(description="What it asks for, in English; see `POST /explain` for the letter of it.")
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template.")

@@ -25,7 +25,7 @@ def test_translates_the_papers_sentences(client: httpx.Client) -> None:
     }
     assert answer["ltl"] == SHIP_LTL
     assert answer["explanation"] == (
-        "eventually cylinder is in box, and then box is at bedroom while cylinder is in box"
+        "eventually the cylinder is in the box, and then the box is in the bedroom while the cylinder is in the box"
     )
     assert 0.9 < answer["confidence"] <= 1
     assert answer["question"] is None

@@ -22,7 +22,7 @@ from service.errors import (
     UnknownPolicyError,
     UnknownTemplateError,
 )
-from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate
+from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate, Transaction
 from service.store.engine import open_engine
 from service.store.migrate import migrate
 from service.store.policies import PolicyEntry
@@ -55,6 +55,8 @@ def template(task: str, revision: int = 1) -> StoredTemplate:
         examples=(StoredExample("take a", f"{task}(a)"),),
         warnings=("odd",),
         revision=revision,
+        reading="eventually the robot is holding {1}",
+        explanation="{1} is taken",
     )
 
 
@@ -83,6 +85,31 @@ def alembic(url: str) -> Config:
     return config
 
 
+def put_as_before_0_3(transaction: Transaction, new: StoredTemplate) -> None:
+    """Store a template where the columns of explanations are not there yet."""
+    values = {name: value for name, value in asdict(new).items() if name not in ("reading", "explanation")}
+    transaction.connection.execute(insert(OLD_TEMPLATES).values(values))
+
+
+def test_templates_of_before_0_3_are_kept_and_have_no_reading(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'store.sqlite3'}"
+    command.upgrade(alembic(url), "0003")
+    store = Store(url)
+    with store.write() as transaction:
+        put_as_before_0_3(transaction, template("t"))
+    migrate(url)
+    with store.write() as transaction:
+        known = transaction.templates.get("t")
+        assert known == replace(template("t"), reading="", explanation="")
+        assert known.words == ""
+        transaction.templates.put(template("t"))
+    command.downgrade(alembic(url), "0003")
+    migrate(url)
+    with store.read() as transaction:
+        assert transaction.templates.get("t") == known
+    store.close()
+
+
 def test_the_first_revision_can_be_undone(url: str) -> None:
     command.downgrade(alembic(url), "base")
     engine = open_engine(url)
@@ -95,7 +122,7 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
     command.upgrade(alembic(url), "0002")
     store = Store(url)
     with store.write() as transaction:
-        transaction.connection.execute(insert(OLD_TEMPLATES).values(asdict(template("t"))))
+        put_as_before_0_3(transaction, template("t"))
         transaction.environments.add("e", "oomdp", {"a": 1})
         old = "INSERT INTO policies (id, environment, ltl, data) VALUES (?, ?, ?, ?)"
         transaction.connection.exec_driver_sql(old, ("p", "e", "F a", b"cqltl\x00p1"))
@@ -105,14 +132,14 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
         assert transaction.policies.page(limit=9) == []
         with pytest.raises(UnknownPolicyError):
             transaction.policies.get("p")
-        assert transaction.templates.get("t") == template("t")
+        assert transaction.templates.get("t") == replace(template("t"), reading="", explanation="")
         assert transaction.environments.get("e").data == {"a": 1}
         transaction.policies.add(new)
     command.downgrade(alembic(url), "0002")
     migrate(url)
     with store.read() as transaction:
         assert transaction.policies.page(limit=9) == []
-        assert transaction.templates.get("t") == template("t")
+        assert transaction.templates.get("t").examples == template("t").examples
     store.close()
 
 
