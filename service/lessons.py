@@ -166,6 +166,7 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
+    services.note_examples([example for example in examples if known is None or example not in known.examples])
     return Learned(kept, known is None, services.known().conflict_warnings(examples))
 
 

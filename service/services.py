@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from threading import Lock
 from typing import TYPE_CHECKING, Any, Self
 
 from sqlalchemy.exc import SQLAlchemyError
 
+from models.language.hearing import Lessons
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.settings import Settings
-from service.store import Store, StoredPolicy
-from service.taught import Taught, TaughtCache
+from service.store import Store, StoredExample, StoredPolicy
+from service.taught import KnownCache, Taught, TaughtCache, read_example
 from service.translators import Translators
 from service.worker import Workers
 
@@ -44,6 +46,9 @@ class Services:
         self.workers = workers
         self.translators = translators
         self._taught = TaughtCache()
+        self._utterances = KnownCache()
+        self._noted = False  # whether what the store has of utterances was taken over
+        self._reading = Lock()
         self._policy = lru_cache(maxsize=16)(self._read_policy)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)
 
@@ -57,6 +62,25 @@ class Services:
         """The templates and the examples of now."""
         with self.store.read() as transaction:
             return self._taught.of(transaction)
+
+    def lessons(self, taught: Taught) -> Lessons:
+        """What the default translator hears besides its networks."""
+        matcher = self.translators.matcher
+        with self._reading:
+            if not self._noted:
+                with self.store.read() as transaction:
+                    readings = transaction.templates.examples.readings()
+                self._utterances.note(readings, taught.stored.values(), matcher)
+                self._noted = True
+            return taught.lessons(matcher, self._utterances, own=self.translators.own)
+
+    def note_examples(self, examples: Sequence[StoredExample]) -> None:
+        """Keep what the matcher reads in new examples, so that no process has to read them again."""
+        matcher = self.translators.matcher
+        known = self._utterances.of([read_example(example) for example in examples], matcher)
+        with self.store.write() as transaction:
+            notes = [(e.id, matcher.to_bytes(read)) for e, read in zip(examples, known, strict=True)]
+            transaction.templates.examples.note(notes)
 
     def policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
         """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""

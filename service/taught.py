@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from threading import Lock
 
 from models.language import TaughtTranslator, Utterance, Wording
+from models.language.hearing import Lessons
+from models.language.matching import Known, Matcher, Shelf, TaughtTask
+from models.language.matching.cards import cards_of
 from models.language.teaching.wording import Element
-from models.logic import parse
+from models.logic import atoms, parse
 from models.queries import Template, parse_task
 from service.store import StoredExample, StoredTemplate, Transaction
 
@@ -25,11 +28,12 @@ class Taught:
     wordings: TaughtTranslator
     _meanings: Mapping[tuple[Element, ...], tuple[Meaning, ...]]
     _templates: dict[str, Template] = field(default_factory=dict)
+    _lessons: list[Lessons] = field(default_factory=list)
 
     @classmethod
     def of(cls, version: int, stored: Mapping[str, StoredTemplate]) -> Taught:
         """Read all examples."""
-        utterances = [_utterance(example) for template in stored.values() for example in template.examples]
+        utterances = [read_example(example) for template in stored.values() for example in template.examples]
         meanings: dict[tuple[Element, ...], dict[Meaning, None]] = {}
         for wording in map(Wording.of, utterances):
             meanings.setdefault(wording.said, {})[_meaning(wording)] = None
@@ -46,11 +50,25 @@ class Taught:
             self._templates[task] = read_template(self.stored[task])
         return self._templates.get(task)
 
+    def lessons(self, matcher: Matcher, known: KnownCache, *, own: frozenset[str]) -> Lessons:
+        """What the default translator hears besides its networks, which know their `own` tasks."""
+        if not self._lessons:
+            tasks = [self._task(stored, matcher, known) for stored in self.stored.values()]
+            functions = {task: _functions(stored) for task, stored in self.stored.items()}
+            left = frozenset(task for task in own if task in self.stored and not self.stored[task].examples)
+            self._lessons.append(Lessons(self.wordings, Shelf.of(tasks), matcher, functions, left))
+        return self._lessons[0]
+
+    def _task(self, stored: StoredTemplate, matcher: Matcher, known: KnownCache) -> TaughtTask:
+        examples = known.of([read_example(example) for example in stored.examples], matcher)
+        cards = known.of(cards_of(parse_task(stored.pairs[0].contextual_query), stored.words), matcher)
+        return TaughtTask(stored.task, stored.arity, examples, cards)
+
     def conflicts(self, example: StoredExample) -> tuple[str, ...]:
         """The tasks that the wording of an example says besides its own meaning: the same words taught with another
         task, or with the arguments of its own in another order.
         """
-        wording = Wording.of(_utterance(example))
+        wording = Wording.of(read_example(example))
         own = _meaning(wording)
         return tuple(task for task, order in self._meanings.get(wording.said, ()) if (task, order) != own)
 
@@ -61,6 +79,27 @@ class Taught:
             for example in examples
             if (tasks := self.conflicts(example))
         )
+
+
+class KnownCache:
+    """What the matcher read in utterances; each is read once in a process, or was by the process that learned it."""
+
+    def __init__(self) -> None:
+        self._held: dict[Utterance, Known] = {}
+
+    def of(self, utterances: Sequence[Utterance], matcher: Matcher) -> tuple[Known, ...]:
+        """For each utterance what there is to compare with."""
+        new = [utterance for utterance in dict.fromkeys(utterances) if utterance not in self._held]
+        self._held.update(zip(new, matcher.known(new), strict=True))
+        return tuple(self._held[utterance] for utterance in utterances)
+
+    def note(self, readings: Mapping[str, bytes], stored: Iterable[StoredTemplate], matcher: Matcher) -> None:
+        """Take over what was read in examples, by their ids."""
+        for template in stored:
+            for example in template.examples:
+                known = matcher.from_bytes(readings.get(example.id))
+                if known is not None:
+                    self._held.setdefault(read_example(example), known)
 
 
 class TaughtCache:
@@ -88,8 +127,13 @@ def read_template(stored: StoredTemplate) -> Template:
     return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds, taught)
 
 
-def _utterance(example: StoredExample) -> Utterance:
+def read_example(example: StoredExample) -> Utterance:
+    """The utterance of a stored example."""
     return Utterance.of(example.text, parse_task(example.contextual_query))
+
+
+def _functions(stored: StoredTemplate) -> frozenset[str]:
+    return frozenset(atom.function for atom in atoms(parse(stored.template)))
 
 
 def _meaning(wording: Wording) -> Meaning:

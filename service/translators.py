@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping
 from threading import Lock
 from typing import TYPE_CHECKING, Generic, Literal, Protocol, Self, TypeVar
 
-from models.language import Translator
+from models.language import ComposedTranslator, Translator
 
 if TYPE_CHECKING:
     from models.language.copynet import FormulaTranslation
+    from models.language.matching import Matcher
 
 TranslatorKey = Literal["default", "cq-copynet", "cq-copynet-pos", "ltl-copynet"]
 """The names of the translators."""
@@ -48,7 +49,9 @@ class Translators:
         self,
         queries: Mapping[str, Callable[[], Translator]],
         formulas: Mapping[str, Callable[[], FormulaTranslator]],
+        matcher: Callable[[], Matcher] | None = None,
     ) -> None:
+        self._matcher = _Lazy(matcher or _load_matcher)
         self._queries = {name: _Lazy(make) for name, make in queries.items()}
         self._formulas = {name: _Lazy(make) for name, make in formulas.items()}
 
@@ -59,6 +62,17 @@ class Translators:
             {DEFAULT: _default, "cq-copynet": _cq_copynet, "cq-copynet-pos": _cq_copynet_pos},
             {"ltl-copynet": _ltl_copynet},
         )
+
+    @property
+    def matcher(self) -> Matcher:
+        """What compares commands with what was taught."""
+        return self._matcher.get()
+
+    @property
+    def own(self) -> frozenset[str]:
+        """The tasks that the default translator's networks know."""
+        chosen = self.queries(DEFAULT)
+        return chosen.tasks if isinstance(chosen, ComposedTranslator) else frozenset()
 
     def gives_formulas(self, name: str) -> bool:
         """Whether the translator of that name is one for `formulas`, and not for `queries`."""
@@ -77,9 +91,15 @@ def _default() -> Translator:
     import torch
 
     torch.set_num_threads(1)  # the networks are small: a second thread makes a translation slower
-    from models.language import ComposedTranslator, SpanTranslator
+    from models.language import SpanTranslator
 
     return ComposedTranslator.load(SpanTranslator.load())
+
+
+def _load_matcher() -> Matcher:
+    from models.language.matching import Matcher
+
+    return Matcher.load()
 
 
 def _cq_copynet() -> Translator:

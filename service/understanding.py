@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from models.errors import CqltlError
-from models.language import BEAM_WIDTH, ComposedTranslator, TaughtTranslator
+from models.language import BEAM_WIDTH
+from models.language.hearing import Hearing
 from models.language.reading import (
-    AMBIGUOUS,
-    GROUNDED,
-    SENSELESS,
     FormulaReading,
     Reading,
-    rank,
     rank_formulas,
-    read,
 )
 from models.logic import Formula
 from models.queries import Binding, GroundedQuery, Path, Query, explain_query
@@ -80,52 +76,23 @@ def understand(
 ) -> tuple[Understanding, ...]:
     """Up to `candidates` ways to understand a command, best first; none when no task fits.
 
-    In an environment, what makes sense there comes first; `models.language.reading` says how. `default` asks the
-    wordings that were taught with `/learn` before its network, so a taught command is understood at once, in every
-    process that shares the store. Taught readings that make no sense give way to readings that do: "go to the sphere",
-    taught for picking up, does not keep "go to the kitchen" from being understood.
+    In an environment, what makes sense there comes first; `models.language.reading` says how. `default` hears what was
+    taught with `/learn` besides its networks (`models.language.hearing`), so a taught task is understood at once, in
+    every process that shares the store.
 
     Raises:
         TextTooLongError: the text is beyond the limits of a command.
     """
-    wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
     if services.translators.gives_formulas(translator):
+        wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
         said = services.translators.formulas(translator).translate(text, candidates=wanted)
         formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
         return tuple(map(_of_formula, formulas[:candidates]))
     chosen = services.translators.queries(translator)
-    wordings = taught.wordings if translator == DEFAULT else TaughtTranslator(())
-    if isinstance(chosen, ComposedTranslator):
-        chosen = chosen.knowing(wordings)
-    said_as_taught = wordings.translate(text, candidates=BEAM_WIDTH)
-    learned = chosen.translate(text, candidates=wanted)
-    readings = _merged(
-        read(text, said_as_taught, template_of=taught.template, environment=environment),
-        rank(text, learned, template_of=taught.template, environment=environment),
-    )
-    return tuple(of_reading(reading, taught.stored) for reading in readings[:candidates])
-
-
-def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
-    """The taught readings that make sense, then the others; just the learned ones where only those do.
-
-    A taught reading that takes a word for misspelt makes less sense than a learned one that takes all as said.
-    """
-    best = learned[0].weight if learned else SENSELESS
-    least = AMBIGUOUS if best == GROUNDED else SENSELESS
-    fitting = [reading for reading in taught if reading.weight >= least and reading.weight > SENSELESS]
-    if not fitting and best > SENSELESS:
-        return tuple(learned)
-    first = _shared(fitting or taught)
-    known = {reading.query for reading in first}
-    rest = [replace(r, confidence=0.0) if first else r for r in learned if r.query not in known]
-    return (*first, *rest)
-
-
-def _shared(readings: Sequence[Reading]) -> list[Reading]:
-    """The readings with confidences that add up to 1; those of no confidence share it when nothing else is left."""
-    total = sum(reading.confidence for reading in readings)
-    return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]
+    lessons = services.lessons(taught) if translator == DEFAULT else None
+    hearing = Hearing(chosen, lessons, taught.template)
+    readings = hearing.readings(text, environment, candidates=candidates)
+    return tuple(of_reading(reading, taught.stored) for reading in readings)
 
 
 def of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:

@@ -55,10 +55,10 @@ class Lessons:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hearing:
-    """A translator with lessons, and the templates of all tasks."""
+    """A translator, with lessons if it hears any, and the templates of all tasks."""
 
     translator: Translator
-    lessons: Lessons
+    lessons: Lessons | None
     template_of: Callable[[str], Template | None]
 
     def readings(self, text: str, environment: Environment | None, *, candidates: int) -> tuple[Reading, ...]:
@@ -71,13 +71,16 @@ class Hearing:
             TextTooLongError: the text is beyond the limits of a command.
         """
         wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
-        translator = self.translator
+        translator, lessons = self.translator, self.lessons
+        if lessons is None:
+            heard = translator.translate(text, candidates=wanted)
+            return rank(text, heard, template_of=self.template_of, environment=environment)[:candidates]
         if isinstance(translator, ComposedTranslator):
-            translator = translator.knowing(self.lessons)
-        exact = self.lessons.wordings.translate(text, candidates=BEAM_WIDTH)
+            translator = translator.knowing(lessons)
+        exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted)
         if not exact:
-            near = self.lessons.near(text, candidates=MATCHED, environment=environment)
+            near = lessons.near(text, candidates=MATCHED, environment=environment)
             heard = weighed(near, heard)
         ranked = rank(text, heard, template_of=self.template_of, environment=environment)
         taught = read(text, exact, template_of=self.template_of, environment=environment)

@@ -60,6 +60,11 @@ class ComposedTranslator:
         """With the model of a folder, or the one that is shipped; raises WeightsError."""
         return cls(SpanReader.of(load_model(folder, name=name)), single)
 
+    @property
+    def tasks(self) -> frozenset[str]:
+        """The task classes that it was trained on."""
+        return frozenset(task for task, _ in self.single.reader.model.network.config.tasks)
+
     def knowing(self, taught: Translator) -> Self:
         """The same, with clauses that are said as they were taught."""
         return replace(self, taught=taught)

@@ -16,12 +16,12 @@ from models.language.matching.model import MatchModel
 from models.language.matching.network import MatchNet
 from models.language.matching.training import Course, batch
 
-SHELVES, TASKS = 40, 30
+SHELVES, TASKS = 20, 30
 """Shelves that are drawn, and tasks on each."""
 MOST_EXAMPLES = 5
 STEEPNESS = (8.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0)
 LESSER = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
-THRESHOLDS = tuple(step / 40 for step in range(8, 60))
+THRESHOLDS = tuple(step / 20 for step in range(4, 30))
 ROLES = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
 
 
@@ -42,22 +42,41 @@ def calibrated(
     The tasks with as many arguments as the text are those that compete, as in use.
     """
     generator = random.Random(seed)
-    trials = [trial for _ in range(SHELVES) for trial in _shelf(network, course, held_out, refused, generator)]
+    drawn = [trial for _ in range(SHELVES) for trial in _shelf(network, course, held_out, refused, generator)]
+    trials = _Trials.of(drawn)
     constants = max(
         product(STEEPNESS, THRESHOLDS, LESSER),
-        key=lambda c: _likelihood(MatchModel(network, c[0], c[1], c[2], 1.0, {}), trials),
+        key=lambda c: trials.likelihood(MatchModel(network, c[0], c[1], c[2], 1.0, {})),
     )
     steepness, threshold, lesser = constants
     return MatchModel(network, steepness, threshold, lesser, _role_temperature(network, course, held_out), {})
 
 
-def _likelihood(model: MatchModel, trials: Sequence[_Trial]) -> float:
-    total = 0.0
-    for trial in trials:
-        points = model.points(trial.examples, trial.cards)
-        mine = 0.0 if trial.right < 0 else points[trial.right]
-        total += mine - np.logaddexp(0.0, np.logaddexp.reduce(points))
-    return float(total)
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trials:
+    """T trials as arrays [T, K], padded where `here` is false; `right` is -1 where no task is."""
+
+    examples: NDArray[np.float32]
+    cards: NDArray[np.float32]
+    here: NDArray[np.bool_]
+    right: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, trials: Sequence[_Trial]) -> _Trials:
+        width = max(len(trial.examples) for trial in trials)
+        examples, cards = (np.zeros((len(trials), width), np.float32) for _ in range(2))
+        here = np.zeros((len(trials), width), bool)
+        for row, trial in enumerate(trials):
+            count = len(trial.examples)
+            examples[row, :count], cards[row, :count], here[row, :count] = trial.examples, trial.cards, True
+        return cls(examples, cards, here, np.array([trial.right for trial in trials]))
+
+    def likelihood(self, model: MatchModel) -> float:
+        """The logarithm of the probability of what is right in all trials."""
+        points = np.where(self.here, model.points(self.examples, self.cards), -np.inf)
+        mine = np.where(self.right < 0, 0.0, points[np.arange(len(points)), self.right])
+        none = np.zeros((len(points), 1))
+        return float((mine - np.logaddexp.reduce(np.concatenate([points, none], axis=1), axis=1)).sum())
 
 
 def _shelf(

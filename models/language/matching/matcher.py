@@ -42,16 +42,6 @@ class Known:
     command: Vectors
     roles: Vectors
 
-    def to_bytes(self) -> bytes:
-        """In half precision: the command, then the roles."""
-        return np.concatenate([self.command, self.roles.ravel()]).astype("<f2").tobytes()
-
-    @classmethod
-    def from_bytes(cls, data: bytes, *, command: int, role: int) -> Self:
-        """From `to_bytes` of vectors of these sizes."""
-        numbers = np.frombuffer(data, "<f2").astype(np.float32)
-        return cls(numbers[:command], numbers[command:].reshape(-1, role))
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TaughtTask:
@@ -100,6 +90,18 @@ class Matcher:
     def load(cls, folder: Path | None = None) -> Self:
         """With the model of a folder, or the one that is shipped; raises WeightsError."""
         return cls(load_model(folder), encoder())
+
+    def to_bytes(self, known: Known) -> bytes:
+        """What was read, in half precision: the key of the model, the command, the roles."""
+        return self.model.key + np.concatenate([known.command, known.roles.ravel()]).astype("<f2").tobytes()
+
+    def from_bytes(self, data: bytes | None) -> Known | None:
+        """The inverse of `to_bytes`; None of what another model read, or of nothing."""
+        key, config = self.model.key, self.model.network.config
+        if data is None or data[: len(key)] != key:
+            return None
+        numbers = np.frombuffer(data[len(key) :], "<f2").astype(np.float32)
+        return Known(numbers[: config.command], numbers[config.command :].reshape(-1, config.role))
 
     def known(self, utterances: Sequence[Utterance]) -> list[Known]:
         """What there is to compare with in utterances of which it is known what they mention."""

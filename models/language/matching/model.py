@@ -4,6 +4,7 @@ them.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from importlib.resources import files
@@ -31,6 +32,7 @@ class MatchModel:
         lesser: weight of the lesser of the nearness to an example and to a card.
         role_temperature: what the nearness of roles is divided by.
         training: how it was made, for the record.
+        key: eight bytes that tell models apart, of one that was read from a file.
     """
 
     network: MatchNet
@@ -39,6 +41,7 @@ class MatchModel:
     lesser: float
     role_temperature: float
     training: Mapping[str, str | int | float]
+    key: bytes = b""
 
     def points(self, examples: NDArray[np.float32], cards: NDArray[np.float32]) -> NDArray[np.float64]:
         """The logarithms of the odds that tasks are meant rather than none, by nearness to their examples and cards."""
@@ -91,5 +94,7 @@ def load_model(folder: Path | None = None) -> MatchModel:
         data = _ModelData.model_validate_json((place / f"{NAME}.json").read_text(encoding="utf-8"))
         with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
             network = MatchNet(MatchConfig(**data.network.model_dump()))
-        network.load_state_dict(load_tensors((place / f"{NAME}.safetensors").read_bytes()), assign=True)
-    return MatchModel(network.eval(), data.steepness, data.threshold, data.lesser, data.role_temperature, data.training)
+        tensors = (place / f"{NAME}.safetensors").read_bytes()
+        network.load_state_dict(load_tensors(tensors), assign=True)
+    constants = (data.steepness, data.threshold, data.lesser, data.role_temperature)
+    return MatchModel(network.eval(), *constants, data.training, hashlib.sha256(tensors).digest()[:8])
