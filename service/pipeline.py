@@ -83,24 +83,28 @@ def translate(
     text: str,
     *,
     environment: str | None,
+    state: State | None = None,
     translator: str,
     candidates: int,
     pointer: str = "/text",
 ) -> Translated:
     """Translate a command; with an environment, ground each reading and put it into its template.
 
-    `pointer` is where the text stands in the request.
+    Phrases that say how things stand go by `state`; what that leaves out is as in the initial state. `pointer` is where
+    the text stands in the request.
     """
-    with at("/environment"):
-        world = None if environment is None else services.environment(environment).value
+    world = None if environment is None else _situated(services, environment, state)
     with at(pointer):
         return Translated(text, understand(services, text, world, translator=translator, candidates=candidates), world)
 
 
-def ground(services: Services, query: str | Query, environment: str) -> tuple[Environment, Meaning]:
-    """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment."""
-    with at("/environment"):
-        world = services.environment(environment).value
+def ground(
+    services: Services, query: str | Query, environment: str, state: State | None = None
+) -> tuple[Environment, Meaning]:
+    """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment, whose
+    things stand as in `state`.
+    """
+    world = _situated(services, environment, state)
     with at(_pointer(query)):
         return world, _ground_query(services, query, world)
 
@@ -131,6 +135,18 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
     return Planned(meaning, environment.value, answer, policy_id)
 
 
+def _situated(services: Services, name: str, state: State | None) -> Environment:
+    """A stored environment in a state."""
+    with at("/environment"):
+        environment = services.environment(name).value
+    return _in_state(environment, state)
+
+
+def _in_state(environment: Environment, state: State | None) -> Environment:
+    with at("/state"):
+        return environment if state is None else environment.in_state(state)
+
+
 def _ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
     query = parse_query(said) if isinstance(said, str) else said
     with services.store.read() as transaction:
@@ -150,13 +166,14 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, M
     else:
         with at("/environment_spec"):
             environment = LoadedEnvironment.read(order.spec)
+    now = _in_state(environment.value, order.state)
     with at(_source(order)):
         if order.ltl is not None:
-            return environment, Meaning(resolve_grounded(parse(order.ltl), environment.value))
+            return environment, Meaning(resolve_grounded(parse(order.ltl), now))
         if order.text is not None:
-            return environment, _meaning_of(services, order.text, environment.value, order.translator)
+            return environment, _meaning_of(services, order.text, now, order.translator)
         assert order.query is not None
-        return environment, _ground_query(services, order.query, environment.value)
+        return environment, _ground_query(services, order.query, now)
 
 
 def _meaning_of(services: Services, text: str, environment: Environment, translator: str) -> Meaning:

@@ -25,7 +25,11 @@ from service.pipeline import ground, translate
 router = APIRouter(tags=["language"])
 
 
-@router.post("/translate", operation_id="translate", responses=refusals(*BODY, "unknown-environment", "text-too-long"))
+@router.post(
+    "/translate",
+    operation_id="translate",
+    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long"),
+)
 def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
     return translated_out(
@@ -33,6 +37,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
             services,
             body.text,
             environment=body.environment,
+            state=body.state,
             translator=body.translator,
             candidates=body.candidates,
         )
@@ -42,7 +47,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
 @router.post(
     "/translate/batch",
     operation_id="translateBatch",
-    responses=refusals(*BODY, "unknown-environment", "text-too-long"),
+    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long"),
 )
 def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
     """Translate several commands."""
@@ -53,6 +58,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
                     services,
                     text,
                     environment=body.environment,
+                    state=body.state,
                     translator=body.translator,
                     candidates=body.candidates,
                     pointer=f"/texts/{index}",
@@ -112,13 +118,15 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
 @router.post(
     "/ground",
     operation_id="ground",
-    responses=refusals(*BODY, "unknown-environment", "unknown-template", *GROUNDING),
+    responses=refusals(
+        *BODY, "unknown-environment", "unknown-template", "invalid-state", "formula-too-large", *GROUNDING
+    ),
 )
 async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
     """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
     query = body.contextual_query if body.query is None else query_in(body.query)
     assert query is not None
-    environment, meaning = await run_sync(ground, services, query, body.environment)
+    environment, meaning = await run_sync(ground, services, query, body.environment, body.state)
     assert meaning.query is not None
     return GroundResponse(
         contextual_query=query_out(meaning.query),

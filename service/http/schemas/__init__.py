@@ -1,6 +1,6 @@
 """Shapes of requests and responses (docs/http.md), by resource."""
 
-from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request
+from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request, ThingOut
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.language import (
     BatchRequest,
@@ -83,6 +83,7 @@ __all__ = [
     "StepResponse",
     "TemplateList",
     "TemplateOut",
+    "ThingOut",
     "Timing",
     "TrajectoryStep",
     "TranslateRequest",
