@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from models.world.names import words
 
 Words = tuple[str, ...]
+DISTANCE = ""
+"""In the place of an attribute type: how far a thing is from the robot, on a map."""
+_FAR = {"near": -1, "close": -1, "far": 1}
 _VOWELS = "aeiou"
 _IRREGULAR: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "good": (("better",), ("best",)),
@@ -51,16 +54,7 @@ class Scale:
     @cached_property
     def degrees(self) -> Mapping[Words, Degree]:
         """What each comparative and superlative says; the adjective of a value right in the middle has none."""
-        found: dict[Words, Degree] = {}
-        for adjective, direction in self._adjectives():
-            comparatives, superlatives = forms(adjective)
-            for said in comparatives:
-                found.setdefault(said, Degree(self.kind, direction, superlative=False))
-            for said in superlatives:
-                found.setdefault(said, Degree(self.kind, direction, superlative=True))
-            found.setdefault(("less", *adjective), Degree(self.kind, -direction, superlative=False))
-            found.setdefault(("least", *adjective), Degree(self.kind, -direction, superlative=True))
-        return found
+        return _degrees(self.kind, self._adjectives())
 
     def also_called(self, value: str) -> tuple[str, ...]:
         """Further adjectives for a value."""
@@ -76,6 +70,25 @@ class Scale:
             beyond = 2 * rank - (len(self.values) - 1)
             if beyond:
                 yield words(value), 1 if beyond > 0 else -1
+
+
+def distances() -> Mapping[Words, Degree]:
+    """What "nearest", "closer" and the like say."""
+    return _degrees(DISTANCE, (((adjective,), direction) for adjective, direction in _FAR.items()))
+
+
+def _degrees(kind: str, adjectives: Iterable[tuple[Words, int]]) -> dict[Words, Degree]:
+    """The comparatives and superlatives of adjectives, each with the end of the scale that it is for."""
+    found: dict[Words, Degree] = {}
+    for adjective, direction in adjectives:
+        comparatives, superlatives = forms(adjective)
+        for said in comparatives:
+            found.setdefault(said, Degree(kind, direction, superlative=False))
+        for said in superlatives:
+            found.setdefault(said, Degree(kind, direction, superlative=True))
+        found.setdefault(("less", *adjective), Degree(kind, -direction, superlative=False))
+        found.setdefault(("least", *adjective), Degree(kind, -direction, superlative=True))
+    return found
 
 
 def forms(adjective: Words) -> tuple[list[Words], list[Words]]:

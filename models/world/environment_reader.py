@@ -246,4 +246,5 @@ class _Reader:
             class_words,
             {name: declared.state for name, declared in self.domain.classes.items()},
             {kind: replace(scale, values=tuple(values[kind])) for kind, scale in self.domain.scales.items()},
+            tuple(self.objects[name] for name in self.domain.constants),
         )

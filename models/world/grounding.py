@@ -22,9 +22,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import wraps
 from typing import Literal
 
-from models.world.degrees import Degree
+from models.world.degrees import DISTANCE, Degree
 from models.world.description import FILLERS, GENERIC, Candidate, Kinds, anything, described, named
 from models.world.environment import Environment
 from models.world.limits import MAX_RELATED
@@ -100,13 +101,26 @@ def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech |
     return (*objects, *values)
 
 
+def _remembering(read: Callable[[_Reader, Words, Kinds | None], list[Candidate]]) -> Callable[..., list[Candidate]]:
+    """What was read once is not read again: a phrase is part of others, in many ways."""
+
+    @wraps(read)
+    def remembered(reader: _Reader, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        key = (read.__name__, said, kinds)
+        if key not in reader.memory:
+            reader.memory[key] = read(reader, said, kinds)
+        return reader.memory[key]
+
+    return remembered
+
+
 class _Reader:
-    """Reads phrases in one environment; what all can be called so it remembers, since phrases are parts of others."""
+    """Reads phrases in one environment."""
 
     def __init__(self, environment: Environment) -> None:
         self._environment = environment
         self._vocabulary = environment.vocabulary
-        self._read: dict[tuple[Words, Kinds | None], list[Candidate]] = {}
+        self.memory: dict[tuple[str, Words, Kinds | None], list[Candidate]] = {}
 
     def one(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """What a phrase without quantifier may mean."""
@@ -126,26 +140,24 @@ class _Reader:
             return found
         return self._corrected(read, said, kinds)
 
+    @_remembering
     def _one(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         ways = (self.named, self._compared, self._related, self._described)
         return next((found for read in ways if (found := read(said, kinds))), [])
 
+    @_remembering
     def _every(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
-        key = (said, kinds)
-        if key not in self._read:
-            if _is_generic(said):
-                known = [] if WHATEVER in said else self._described(said, kinds)
-                found = known or anything(self._environment, kinds)
-            else:
-                ways = (self._compared, self._every_related, self._described)
-                more = next((found for read in ways if (found := read(said, kinds))), [])
-                found = self._ordered([*self.named(said, kinds), *more])
-            self._read[key] = [each for each in found if self._vocabulary.is_object(each.symbol)]
-        return self._read[key]
+        if _is_generic(said):
+            known = [] if WHATEVER in said else self._described(said, kinds)
+            return self._objects(known or anything(self._environment, kinds))
+        ways = (self._compared, self._every_related, self._described)
+        more = next((found for read in ways if (found := read(said, kinds))), [])
+        return self._objects(self._ordered([*self.named(said, kinds), *more]))
 
     def _described(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         return described(said, self._environment, kinds)
 
+    @_remembering
     def _compared(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """Those of the things said that come first or last on the scale of a word that compares."""
         for place, length, degrees in self._vocabulary.comparing(said):
@@ -172,11 +184,15 @@ class _Reader:
 
     def _rank(self, symbol: Symbol, degree: Degree) -> int | None:
         """How far an object's value is in the direction of a degree; None for one without."""
+        if degree.kind == DISTANCE:
+            distance = self._environment.situation.distance(symbol)
+            return None if distance is None else degree.direction * distance
         facts = (self._vocabulary.static.get(symbol, {}), self._environment.situation.values(symbol))
         values = (value for attributes in facts for value in attributes.values() if value.kind == degree.kind)
         value = next(values, None)
         return None if value is None else degree.direction * self._vocabulary.scales[degree.kind].ranks[value.name]
 
+    @_remembering
     def _related(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """The things that stand to another thing as the words say."""
         return self._standing(said, kinds, self._figures)
@@ -236,7 +252,8 @@ class _Reader:
 
 def _is_generic(said: Words) -> bool:
     """Whether the words say nothing of a thing: "one", "objects"."""
-    return all(singular(word) in GENERIC for word in said if word not in FILLERS)
+    content = [singular(word) for word in said if word not in FILLERS]
+    return bool(content) and GENERIC.issuperset(content)
 
 
 def _of_what(said: Words) -> Words:

@@ -170,8 +170,7 @@ class PhraseIndex:
     @cached_property
     def _spelling(self) -> Spelling:
         nouns = (words(noun) for nouns in self._vocabulary.class_words.values() for noun in nouns)
-        scales = self._vocabulary.scales.values()
-        degrees = (said for scale in scales for said in scale.degrees)
+        degrees = (said for scale in self._vocabulary.scales.values() for said in scale.degrees if len(said) == 1)
         return Spelling(word for spoken in chain(self._called, nouns, degrees) for word in spoken)
 
     def _traits_of(self, symbol: Symbol) -> Traits:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from models.logic.formula import Atom, Name
 from models.world.errors import WorldError
+from models.world.grid import DIRECTIONS
 from models.world.names import singular, words
 from models.world.oomdp import OomdpWorld
 
@@ -50,6 +51,36 @@ class Situation:
                 return self._world.holds(atom, self._index)
             except WorldError:
                 return False
+
+    def distance(self, symbol: Symbol) -> int | None:
+        """How many moves on the map an object is from the robot; None for what is on no map, or cannot be reached."""
+        place = self._place(symbol)
+        return None if place is None else self._distances.get(place)
+
+    def _place(self, symbol: Symbol) -> Symbol | None:
+        """The cell of a map that an object is, or is in."""
+        seen = [symbol]
+        for thing in seen:
+            related = self.related(thing)
+            if not DIRECTIONS.keys().isdisjoint(related):
+                return thing
+            seen += [held for held in related.values() if held not in seen]
+        return None
+
+    @cached_property
+    def _distances(self) -> Mapping[Symbol, int]:
+        """The moves to each cell from where the robot is: the one constant of the domain that is on the map."""
+        starts = {place for constant in self._vocabulary.constants if (place := self._place(constant)) is not None}
+        if len(starts) != 1:
+            return {}
+        found = dict.fromkeys(starts, 0)
+        queue = [*starts]
+        for cell in queue:
+            for direction, other in self.related(cell).items():
+                if direction in DIRECTIONS and other not in found:
+                    found[other] = found[cell] + 1
+                    queue.append(other)
+        return found
 
     @cached_property
     def _state(self) -> Mapping[Symbol, Mapping[str, Symbol]]:

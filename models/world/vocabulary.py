@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from models.world.degrees import Degree, Scale
+from models.world.degrees import Degree, Scale, distances
 from models.world.domain import Function
+from models.world.grid import DIRECTIONS
 from models.world.names import words
 from models.world.phrase_index import PhraseIndex
 from models.world.relations import Relations
@@ -35,6 +36,8 @@ class Vocabulary:
     """Per class the state attributes and the kinds of what they hold."""
     scales: Mapping[str, Scale] = field(default_factory=dict)
     """The attribute types whose values are ordered."""
+    constants: tuple[Symbol, ...] = ()
+    """The objects that every environment of the domain has."""
 
     @cached_property
     def phrases(self) -> PhraseIndex:
@@ -57,8 +60,9 @@ class Vocabulary:
     @cached_property
     def _degrees(self) -> dict[tuple[str, ...], tuple[Degree, ...]]:
         found: dict[tuple[str, ...], tuple[Degree, ...]] = {}
-        for scale in self.scales.values():
-            for said, degree in scale.degrees.items():
+        mapped = any(not DIRECTIONS.keys().isdisjoint(attributes) for attributes in self.static.values())
+        for degrees in (*(scale.degrees for scale in self.scales.values()), distances() if mapped else {}):
+            for said, degree in degrees.items():
                 found[said] = (*found.get(said, ()), degree)
         return found
 
