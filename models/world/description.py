@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from models.world.environment import Environment
 from models.world.names import listing, singular, words
-from models.world.phrase_index import DETERMINERS, Traits, Words
-from models.world.quantifiers import WHATEVER
+from models.world.phrase_index import DETERMINERS, WHATEVER, Traits, Words
 from models.world.vocabulary import Symbol, Vocabulary
 
 Kinds = frozenset[str]

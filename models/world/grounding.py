@@ -30,8 +30,8 @@ from models.world.description import FILLERS, GENERIC, Candidate, Kinds, anythin
 from models.world.environment import Environment
 from models.world.limits import MAX_RELATED
 from models.world.names import singular
-from models.world.phrase_index import Words
-from models.world.quantifiers import WHATEVER, Quantifier, counted, quantified
+from models.world.phrase_index import WHATEVER, Words
+from models.world.quantifiers import Quantifier, counted, quantified
 from models.world.vocabulary import Symbol, Vocabulary
 
 PartOfSpeech = Literal["noun", "adjective"]
@@ -221,9 +221,9 @@ class _Reader:
             yield anything(self._environment, kinds)
 
     def _grounds(self, ground: Words) -> Iterator[list[Candidate]]:
-        """What it stands to: the thing of that name; else whatever can be called so."""
+        """What it stands to: the thing of that name; else, or of "a box", whatever can be called so."""
         said = quantified(" ".join(ground))
-        if said.quantifier is Quantifier.ONE:
+        if said.quantifier is Quantifier.ONE and ground[0] not in ("a", "an"):
             yield self._objects(self._one(said.rest, None))
         yield self._every(counted(said.rest)[0], None)
 

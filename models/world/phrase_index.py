@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from models.world.vocabulary import Symbol, Vocabulary
 
 DETERMINERS = frozenset(words("the a an this that these those my your his her its our their some"))
+WHATEVER = "*"
+"""Stands for "thing" in "anything": a word that nobody can say, so that no name is taken for it."""
 MAX_CORRECTED = 8
 """Most words of a phrase that is searched for a typing mistake."""
 Words = tuple[str, ...]

@@ -11,10 +11,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from models.world.names import words
-from models.world.phrase_index import DETERMINERS, Words, spoken_words
+from models.world.phrase_index import DETERMINERS, WHATEVER, Words, spoken_words
 
-WHATEVER = "*"
-"""Stands for "thing" in "anything": a word that nobody can say, so that no name is taken for it."""
 _NUMBERS = {word: number for number, word in enumerate(words("two three four five six seven eight nine ten"), start=2)}
 
 

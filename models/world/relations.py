@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 from models.world.grid import DIRECTIONS
 from models.world.names import words
+from models.world.phrase_index import WHATEVER
 
 if TYPE_CHECKING:
     from models.world.domain import Function
@@ -75,6 +76,10 @@ class Relations:
 
     def splits(self, said: Words) -> Iterator[Split]:
         """The ways to take a phrase apart, the earliest relation first, of several there the longest."""
+        for length in range(2, min(self._longest, len(said) - 1) + 1):
+            relation = said[:length]
+            if relation[-1] == "of" and relation in self._sayings and relation not in _PLACES:  # "the owner of the dog"
+                yield Split((WHATEVER,), relation, said[length:])
         for place in range(1, len(said) - 1):
             for length in range(min(self._longest, len(said) - 1 - place), 0, -1):
                 relation = said[place : place + length]
@@ -149,12 +154,28 @@ class Relations:
         holds = attribute is not None and attribute not in DIRECTIONS and self._may_hold(figure, attribute, ground)
         if not facts and not holds:
             return None
-        return (holds and _leads(figure, ground, situation, attribute)) or _any(facts, situation)
+        return (holds and self._leads(figure, ground, situation, attribute)) or _any(facts, situation)
 
     def _located(self, figure: Symbol, ground: Symbol, situation: Situation) -> bool:
         """Whether the figure is at the ground, however that is said."""
         facts = self._facts(_PLACES, figure, ground)
-        return _any(facts, situation) if facts else _leads(figure, ground, situation)
+        return _any(facts, situation) if facts else self._leads(figure, ground, situation)
+
+    def _leads(self, figure: Symbol, ground: Symbol, situation: Situation, attribute: str | None = None) -> bool:
+        """Whether an attribute, or any but the directions of a map, leads from the figure to the ground in some steps.
+
+        Not through the robot, or whatever else is always there: what it carries is not where it is.
+        """
+        seen, left = {figure, *self._vocabulary.constants}, [figure]
+        while left:
+            for name, held in situation.related(left.pop()).items():
+                if name not in DIRECTIONS and attribute in (None, name):
+                    if held == ground:
+                        return True
+                    if held not in seen:
+                        seen.add(held)
+                        left.append(held)
+        return False
 
     def _facts(self, relations: Set[Words], figure: Symbol, ground: Symbol) -> list[_Fact]:
         """What the functions said so would say of two objects that they take."""
@@ -174,20 +195,6 @@ class Relations:
 
 def _any(facts: Sequence[_Fact], situation: Situation) -> bool:
     return any(situation.holds(function, *symbols) for function, symbols in facts)
-
-
-def _leads(figure: Symbol, ground: Symbol, situation: Situation, attribute: str | None = None) -> bool:
-    """Whether an attribute, or any but the directions of a map, leads from the figure to the ground in some steps."""
-    seen, left = {figure}, [figure]
-    while left:
-        for name, held in situation.related(left.pop()).items():
-            if name not in DIRECTIONS and attribute in (None, name):
-                if held == ground:
-                    return True
-                if held not in seen:
-                    seen.add(held)
-                    left.append(held)
-    return False
 
 
 def _between(function: Function) -> Iterator[tuple[Words, int]]:
