@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from models.errors import CqltlError, Place
-from models.logic import Formula
+from models.logic import Formula, FormulaTooLargeError, conjunction, disjunction
 from models.queries.contextual_query import ContextualQuery, Query
 from models.queries.errors import AmbiguousGroundingError, CompositionError
 from models.queries.meaning import compose
-from models.queries.template import Binding, GroundedTask
+from models.queries.sharing import agreed, choices
+from models.queries.template import MAX_COMBINATIONS, Binding, GroundedTask
+from models.world import Quantifier
 
 Path = tuple[int, ...]
 """From the root of a query to one of its parts: the places of the operands."""
@@ -26,11 +28,13 @@ class GroundedQuery:
 
 
 def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> GroundedQuery:
-    """Evaluate every task of a query with `ground`, and put them together.
+    """Evaluate every task of a query with `ground`, and put them together; what several tasks say of any or all of some
+    things is said of the same thing in each (`models.queries.sharing`).
 
     Raises:
         CompositionError: an operator has no meaning for its operands; the place names it.
-        FormulaTooLargeError: the formula is beyond the limits of `models.logic`.
+        FormulaTooLargeError: the formula is beyond the limits of `models.logic`, or there are more than
+            `MAX_COMBINATIONS` ways to choose the things that tasks share.
         AmbiguousGroundingError: that of the first task which is ambiguous, if no other is refused.
         CqltlError: what else `ground` raises, with its places within the whole query.
     """
@@ -46,15 +50,22 @@ def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTas
             doubt = doubt or error
     if doubt is not None:
         raise doubt
-    bindings = tuple((path, binding) for path, task in tasks.items() for binding in task.bindings)
-    return GroundedQuery(query, _formula(query, tasks, ()), bindings)
+    agreeing = agreed(query, tasks)
+    bindings = tuple((path, binding) for path, task in agreeing.items() for binding in task.bindings)
+    return GroundedQuery(query, _formula(query, agreeing, (), MAX_COMBINATIONS), bindings)
 
 
-def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path) -> Formula:
-    """The formula of the part at a path."""
+def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path, most: int) -> Formula:
+    """The formula of the part at a path, with at most so many choices of things that its tasks share."""
     if isinstance(query, ContextualQuery):
         return tasks[path].formula
-    operands = [_formula(operand, tasks, (*path, place)) for place, operand in enumerate(query.operands)]
+    if (shared := choices(query, tasks, path)) is not None:
+        quantifier, chosen = shared
+        if len(chosen) > most:
+            raise FormulaTooLargeError(f"{query} has more than {MAX_COMBINATIONS} combinations of things")
+        join = conjunction if quantifier is Quantifier.ALL else disjunction
+        return join(*(_formula(query, choice, path, most // len(chosen)) for choice in chosen))
+    operands = [_formula(operand, tasks, (*path, place), most) for place, operand in enumerate(query.operands)]
     try:
         return compose(query.operator, operands)
     except CompositionError as error:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from math import prod
 
 from models.errors import Place
@@ -95,6 +96,14 @@ class GroundedTask:
     query: ContextualQuery
     formula: Formula
     bindings: tuple[Binding, ...]
+    filled: Callable[[Sequence[Binding]], Formula] | None = field(default=None, compare=False, repr=False)
+    """The formula for other bindings of the arguments; None where there is no environment to bind them in."""
+
+    def rebound(self, bindings: tuple[Binding, ...]) -> GroundedTask:
+        """The task with other bindings."""
+        if self.filled is None or bindings == self.bindings:
+            return self
+        return replace(self, formula=self.filled(bindings), bindings=bindings)
 
 
 def parameter_kinds(formula: Formula, environment: Environment, arity: int) -> tuple[Kinds, ...]:
@@ -167,10 +176,11 @@ def evaluate(
     if combinations > MAX_COMBINATIONS:
         detail = f"{query} has {combinations} combinations of things in {environment.name}; at most {MAX_COMBINATIONS}"
         raise FormulaTooLargeError(detail)
-    return GroundedTask(query, _filled(template.formula, bindings, environment), tuple(bindings))
+    filled = partial(_filled, template.formula, environment)
+    return GroundedTask(query, filled(bindings), tuple(bindings), filled)
 
 
-def _filled(formula: Formula, bindings: Sequence[Binding], environment: Environment) -> Formula:
+def _filled(formula: Formula, environment: Environment, bindings: Sequence[Binding]) -> Formula:
     """The formula of a template with every parameter bound; the first quantifier is outermost."""
 
     def chosen(left: Sequence[Binding], terms: dict[Term, Term]) -> Formula:

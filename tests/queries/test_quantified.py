@@ -21,7 +21,7 @@ from models.queries import (
     parse_query,
 )
 from models.queries.template import MAX_COMBINATIONS
-from models.world import Environment, UnknownObjectError, load_environment
+from models.world import Environment, Quantifier, UnknownObjectError, load_environment
 from tests.world.worlds import NURSERY
 
 ENVIRONMENT = load_environment(NURSERY)
@@ -87,6 +87,36 @@ def grounded(text: str, environment: Environment = ENVIRONMENT) -> GroundedQuery
             "until(avoid(pickup(anything in the kitchen)), move_to(bedroom))",
             "(!holding(box) & !holding(blue_ball)) U near(robot, bedroom)",
         ),
+        (  # the same toy: "pick up any red toy and put it in the box"
+            "then(pickup(any red toy), keep(any red toy, box))",
+            "F (holding(red_ball) & G in(red_ball, box)) | F (holding(cube) & G in(cube, box))",
+        ),
+        (  # each toy in turn, not all before any
+            "then(pickup(both red toys), move_to(both red toys))",
+            "F (holding(red_ball) & F near(robot, red_ball)) & F (holding(cube) & F near(robot, cube))",
+        ),
+        (  # of everything in the kitchen, what can be kept in a box
+            "then(pickup(everything in the kitchen), keep(everything in the kitchen, box))",
+            "F (holding(blue_ball) & G in(blue_ball, box))",
+        ),
+        (  # however deep
+            "and(then(pickup(any red toy), move_to(kitchen)), repeat(move_to(any red toy)))",
+            "(F (holding(red_ball) & F near(robot, kitchen)) & G F near(robot, red_ball)) "
+            "| (F (holding(cube) & F near(robot, kitchen)) & G F near(robot, cube))",
+        ),
+        (  # what is never to be done is apart
+            "and(move_to(any red toy), avoid(pickup(any red toy)))",
+            "(F near(robot, red_ball) | F near(robot, cube)) & G !holding(red_ball) & G !holding(cube)",
+        ),
+        (
+            "without(move_to(either box), pickup(either box))",
+            "F (near(robot, box) & !(holding(box) | holding(crate))) "
+            "| F (near(robot, crate) & !(holding(box) | holding(crate)))",
+        ),
+        (  # a choice between two tasks is each for itself
+            "or(pickup(both red toys), move_to(both red toys))",
+            "(F holding(red_ball) & F holding(cube)) | (F near(robot, red_ball) & F near(robot, cube))",
+        ),
         ("repeat(move_to(either box))", "G (F near(robot, box) | F near(robot, crate))"),
     ],
 )
@@ -132,6 +162,17 @@ def test_refusals(query: str, refusal: type[Exception], says: str) -> None:
         grounded(query)
 
 
+def test_what_tasks_share_is_what_all_of_them_can_be_about() -> None:
+    """Boxes can be picked up, but not kept in a box."""
+    both = grounded("then(pickup(everything in the kitchen), keep(everything in the kitchen, box))").bindings
+    assert [[c.symbol.name for c in binding.candidates] for _, binding in both] == [
+        ["blue_ball"],
+        ["blue_ball"],
+        ["box"],
+    ]
+    assert {binding.quantifier for _, binding in both[:2]} == {Quantifier.ALL}
+
+
 def test_too_many_combinations_are_refused() -> None:
     objects = {f"place {n}": {"class": "place"} for n in range(MAX_COMBINATIONS + 1)}
     data = {
@@ -151,6 +192,8 @@ def test_too_many_combinations_are_refused() -> None:
     template = learn([Example(parse_task_of("go(place 1)"), parse('F at(robot, "place 1")'))], environment)
     with pytest.raises(FormulaTooLargeError, match=f"65 combinations of things in plain; at most {MAX_COMBINATIONS}"):
         evaluate(template, parse_task_of("go(any place)"), environment)
+    with pytest.raises(FormulaTooLargeError, match=f"more than {MAX_COMBINATIONS} combinations"):
+        grounded("then(move_to(any item), move_to(any item), move_to(each item), move_to(each item))")
 
 
 @pytest.mark.parametrize("phrase", ["any toy", "every cube", "both boxes"])
