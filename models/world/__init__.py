@@ -18,7 +18,7 @@ from models.world.grounding import Grounding, PartOfSpeech, ground, speaks_of_ot
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.oomdp import OomdpWorld
-from models.world.quantifiers import Quantifier, with_values
+from models.world.quantifiers import Quantifier, widened, with_values
 from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import ProjectedWorld, Projection, relevant_part
 from models.world.resolution import atom_symbols, distinct_name, resolve
@@ -74,5 +74,6 @@ __all__ = [
     "speaks_of_others",
     "suggest",
     "toys_spec",
+    "widened",
     "with_values",
 ]

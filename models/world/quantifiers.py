@@ -83,6 +83,23 @@ def counted(said: Words) -> tuple[Words, int | None]:
     return said[place:], number
 
 
+def widened(said: Sequence[str], begin: int) -> int:
+    """Where the phrase that begins at a place of a text begins with its quantifier: at "any" in "grab any of the toys",
+    where the phrase found is "toys". "First of all the toys" has none.
+    """
+    place = begin
+    while place > 0:
+        for opening, _, follows in _OPENINGS:
+            start = place - len(opening)
+            if not follows and start >= 0 and tuple(said[start:place]) == opening:
+                of_all = opening == ("all",) and start > 0 and said[start - 1] in ("of", "above", "after")
+                return begin if of_all else start
+        if said[place - 1] not in DETERMINERS and said[place - 1] not in _NUMBERS:
+            break
+        place -= 1
+    return begin
+
+
 def with_values(phrase: str, values: Sequence[str]) -> str:
     """The phrase with attribute values said of it too: "any red toy" of "any toy", "everything red" of "everything"."""
     said = quantified(phrase)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.world import Quantifier, StateError, ground, load_environment, with_values
+from models.world import Quantifier, StateError, ground, load_environment, widened, with_values
 from tests.world.worlds import NURSERY, PANTRY, TINY
 
 MOVABLE = frozenset({"toy", "box"})
@@ -222,6 +222,28 @@ def test_reasons(nursery, phrase, reason):
 )
 def test_values_are_said_of_what_a_phrase_is_of(phrase, values, expected):
     assert with_values(phrase, values) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "phrase", "expected"),
+    [
+        ("grab any toy now", "toy", "any toy"),
+        ("grab any one of the red toys", "red toys", "any one of the red toys"),
+        ("bring all of my toys", "toys", "all of my toys"),
+        ("take both the boxes", "boxes", "both the boxes"),
+        ("take some toy", "toy", "some toy"),
+        ("get all three cups", "cups", "all three cups"),
+        ("first of all the toys", "toys", "toys"),
+        ("go to the museum", "museum", "museum"),
+        ("pick up one box", "box", "box"),
+        ("museum", "museum", "museum"),
+    ],
+)
+def test_a_quantifier_before_a_phrase_belongs_to_it(text, phrase, expected):
+    said = text.split()
+    end = len(said) if text.endswith(phrase) else said.index(phrase.split()[-1]) + 1
+    begin = end - len(phrase.split())
+    assert " ".join(said[widened(said, begin) : end]) == expected
 
 
 @st.composite
