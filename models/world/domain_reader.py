@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 from math import inf
 
 from models.world.checker import BOOLEAN, NUMBER, BrokenDefinitionError, Checker, describe, scope_of
-from models.world.degrees import Scale
 from models.world.domain import (
     Action,
     Argument,
@@ -25,7 +24,8 @@ from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_S
 from models.world.name_faults import name_fault
 from models.world.names import IDENTIFIER, NONE, hint
 from models.world.report import Report
-from models.world.specs import ActionSpec, DefinitionSpec, DomainSpec, FunctionSpec, OrderSpec, OutcomeSpec
+from models.world.scale_reader import read_scales
+from models.world.specs import ActionSpec, DefinitionSpec, DomainSpec, FunctionSpec, OutcomeSpec
 
 _HOLE = re.compile(r"\{([^{}]*)\}")
 _RESERVED = frozenset({NONE, "true", "false", "not", "if", "else", "and", "or", "implies", "is"})
@@ -55,7 +55,7 @@ class _Reader:
             report.add([], f"the expressions have more than {MAX_TEXTS} characters together")
             return None
         attributes = {kind: self._values(kind, values) for kind, values in spec.attributes.items()}
-        scales = {kind: self._scale(kind, order, attributes) for kind, order in spec.ordered.items()}
+        scales = read_scales(spec.ordered, attributes, report)
         classes = {name: self._class(name) for name in spec.classes}
         parameters = {name: self._parameter(name) for name in spec.parameters}
         self._constants()
@@ -107,28 +107,6 @@ class _Reader:
 
     def _values(self, kind: str, values: list[str]) -> tuple[str, ...]:
         return read_values(values, ("attributes", kind), self.report)
-
-    def _scale(self, kind: str, order: OrderSpec, attributes: Mapping[str, tuple[str, ...]]) -> Scale:
-        path = ("ordered", kind)
-        if kind not in attributes:
-            self.report.add(path, f"there is no attribute type {kind}{hint(kind, attributes)}")
-        elif len(attributes[kind]) < 2:
-            self.report.add(path, f"{kind} has fewer than two values, so there is nothing to compare")
-        ends = {"less": order.less, "more": order.more}
-        for end, adjectives in ends.items():
-            if len(adjectives) > MAX_SYNONYMS:
-                self.report.add([*path, end], f"at most {MAX_SYNONYMS} entries")
-            for index, adjective in enumerate(adjectives[:MAX_SYNONYMS]):
-                if fault := name_fault(adjective) or self._order_fault(kind, end, adjective, order):
-                    self.report.add([*path, end, index], fault)
-        return Scale(kind, attributes.get(kind, ()), tuple(order.less), tuple(order.more))
-
-    def _order_fault(self, kind: str, end: str, adjective: str, order: OrderSpec) -> str | None:
-        if end == "more" and adjective in order.less:
-            return f"{adjective} cannot be both less and more"
-        if adjective in self.spec.attributes.get(kind, ()):
-            return f"{adjective} is a value of {kind} itself"
-        return None
 
     def _class(self, name: str) -> ObjectClass:
         spec = self.spec.classes[name]

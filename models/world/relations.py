@@ -99,7 +99,8 @@ class Relations:
                 return False
             if relation in _HOLDS:
                 return self._located(ground, figure, situation)
-            if relation[-1] == "of" and situation.related(ground).get("_".join(relation[:-1])) == figure:
+            attribute = self._attributes.get(relation[:-1]) if relation[-1] == "of" else None
+            if attribute is not None and situation.related(ground).get(attribute) == figure:
                 return True
             said = self._said(relation, figure, ground, situation)
             if said is not None:
@@ -162,14 +163,16 @@ class Relations:
         return _any(facts, situation) if facts else self._leads(figure, ground, situation)
 
     def _leads(self, figure: Symbol, ground: Symbol, situation: Situation, attribute: str | None = None) -> bool:
-        """Whether an attribute, or any but the directions of a map, leads from the figure to the ground in some steps.
+        """Whether attributes, but for the directions of a map, lead from the figure to the ground in some steps, the first
+        of them by a certain one if any.
 
         Not through the robot, or whatever else is always there: what it carries is not where it is.
         """
         seen, left = {figure, *self._vocabulary.constants}, [figure]
         while left:
-            for name, held in situation.related(left.pop()).items():
-                if name not in DIRECTIONS and attribute in (None, name):
+            thing = left.pop()
+            for name, held in situation.related(thing).items():
+                if name not in DIRECTIONS and (thing != figure or attribute in (None, name)):
                     if held == ground:
                         return True
                     if held not in seen:

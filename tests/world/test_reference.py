@@ -134,6 +134,8 @@ def test_several(nursery, phrase, quantifier, expected):
     [
         ("the dish in the hall", ["soup", "pie"]),  # on a shelf that stands there
         ("the dish in the cellar", ["ice"]),
+        ("the dish on the shelf in the cellar", ["ice"]),
+        ("any dish on a shelf in the hall", ["soup", "pie"]),
         ("the shelf in the cellar", ["bottom"]),
         ("the cupboard that stands in the hall", ["top"]),
         ("the dish on the bottom shelf", ["ice"]),
