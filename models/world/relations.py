@@ -163,8 +163,8 @@ class Relations:
         return _any(facts, situation) if facts else self._leads(figure, ground, situation)
 
     def _leads(self, figure: Symbol, ground: Symbol, situation: Situation, attribute: str | None = None) -> bool:
-        """Whether attributes, but for the directions of a map, lead from the figure to the ground in some steps, the first
-        of them by a certain one if any.
+        """Whether attributes, but for the directions of a map, lead from the figure to the ground in some steps, the
+        first of them by a certain one if any.
 
         Not through the robot, or whatever else is always there: what it carries is not where it is.
         """
