@@ -88,6 +88,7 @@ def translate(
     text: str,
     *,
     environment: str | None,
+    state: State | None = None,
     translator: str,
     candidates: int,
     answers: Sequence[Answer] = (),
@@ -95,14 +96,13 @@ def translate(
 ) -> Translated:
     """Translate a command; with an environment, ground each reading and put it into its template.
 
-    `answers` are to the questions that the command left open, in their order; `pointer` is where the text stands in the
-    request.
+    Phrases that say how things stand go by `state`; what that leaves out is as in the initial state. `answers` are to
+    the questions that the command left open, in their order; `pointer` is where the text stands in the request.
 
     Raises:
         AnswerError: an answer is none to the question that is asked.
     """
-    with at("/environment"):
-        world = None if environment is None else services.environment(environment).value
+    world = None if environment is None else _situated(services, environment, state)
     taught = services.known()
     with at(pointer):
         found = understand(services, taught, text, world, translator=translator, candidates=max(candidates, RIVALS))
@@ -111,10 +111,13 @@ def translate(
     return Translated(text, left[:candidates], world, question_of(left, taught, world))
 
 
-def ground(services: Services, query: str | Query, environment: str) -> tuple[Environment, Meaning]:
-    """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment."""
-    with at("/environment"):
-        world = services.environment(environment).value
+def ground(
+    services: Services, query: str | Query, environment: str, state: State | None = None
+) -> tuple[Environment, Meaning]:
+    """Evaluate a contextual query, as text or in parts, against its stored templates in a stored environment, whose
+    things stand as in `state`.
+    """
+    world = _situated(services, environment, state)
     with at(query_pointer(query)):
         return world, ground_query(services, query, world)
 
@@ -145,6 +148,18 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
     return Planned(meaning, environment.value, answer, policy_id)
 
 
+def _situated(services: Services, name: str, state: State | None) -> Environment:
+    """A stored environment in a state."""
+    with at("/environment"):
+        environment = services.environment(name).value
+    return _in_state(environment, state)
+
+
+def _in_state(environment: Environment, state: State | None) -> Environment:
+    with at("/state"):
+        return environment if state is None else environment.in_state(state)
+
+
 def ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
     """What a contextual query, as text or in parts, means in an environment by the stored templates."""
     query = parse_query(said) if isinstance(said, str) else said
@@ -165,13 +180,14 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, M
     else:
         with at("/environment_spec"):
             environment = LoadedEnvironment.read(order.spec)
+    now = _in_state(environment.value, order.state)
     if order.text is not None:
-        return environment, _meaning_of(services, order, environment.value)
+        return environment, _meaning_of(services, order, now)
     with at(_source(order)):
         if order.ltl is not None:
-            return environment, Meaning(resolve_grounded(parse(order.ltl), environment.value))
+            return environment, Meaning(resolve_grounded(parse(order.ltl), now))
         assert order.query is not None
-        return environment, ground_query(services, order.query, environment.value)
+        return environment, ground_query(services, order.query, now)
 
 
 def _meaning_of(services: Services, order: PlanOrder, environment: Environment) -> Meaning:

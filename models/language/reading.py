@@ -65,7 +65,8 @@ class Reading:
         """How much sense it makes in the environment; without one, as much as can be."""
         if self.refusal is None:
             weight = GROUNDED
-            candidates = [binding.candidate for _, binding in self.grounded.bindings] if self.grounded else []
+            bindings = self.grounded.bindings if self.grounded else ()
+            candidates = [candidate for _, binding in bindings for candidate in binding.candidates]
         elif isinstance(self.refusal, AmbiguousGroundingError):
             weight, candidates = AMBIGUOUS, list(self.refusal.candidates)
         else:

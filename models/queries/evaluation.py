@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from models.errors import CqltlError, Place
-from models.logic import Formula
+from models.logic import Formula, FormulaTooLargeError, conjunction, disjunction
 from models.queries.contextual_query import ContextualQuery, Query
 from models.queries.errors import AmbiguousGroundingError, CompositionError
 from models.queries.meaning import compose
-from models.queries.template import Binding, GroundedTask
+from models.queries.sharing import agreed, choices
+from models.queries.template import MAX_COMBINATIONS, Binding, GroundedTask
+from models.world import Quantifier
 
 Path = tuple[int, ...]
 """From the root of a query to one of its parts: the places of the operands."""
@@ -29,11 +31,13 @@ class GroundedQuery:
 
 
 def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> GroundedQuery:
-    """Evaluate every task of a query with `ground`, and put them together.
+    """Evaluate every task of a query with `ground`, and put them together; what several tasks say of any or all of some
+    things is said of the same thing in each (`models.queries.sharing`).
 
     Raises:
         CompositionError: an operator has no meaning for its operands; the place names it.
-        FormulaTooLargeError: the formula is beyond the limits of `models.logic`.
+        FormulaTooLargeError: the formula is beyond the limits of `models.logic`, or there are more than
+            `MAX_COMBINATIONS` ways to choose the things that tasks share.
         AmbiguousGroundingError: that of the first task which is ambiguous, if no other is refused.
         CqltlError: what else `ground` raises, with its places within the whole query.
     """
@@ -49,19 +53,34 @@ def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTas
             doubt = doubt or error
     if doubt is not None:
         raise doubt
-    bindings = tuple((path, binding) for path, task in tasks.items() for binding in task.bindings)
-    formulas = {path: task.formula for path, task in tasks.items()}
-    return GroundedQuery(query, _formula(query, formulas, ()), bindings, tuple(formulas.items()))
+    agreeing = agreed(query, tasks)
+    bindings = tuple((path, binding) for path, task in agreeing.items() for binding in task.bindings)
+    parts: dict[Path, Formula] = {}
+    formula = _formula(query, agreeing, (), MAX_COMBINATIONS, parts)
+    return GroundedQuery(query, formula, bindings, tuple(parts.items()))
 
 
-def _formula(query: Query, formulas: dict[Path, Formula], path: Path) -> Formula:
-    """The formula of the part at a path, which is noted, as are those of its parts; those of tasks are known."""
+def _formula(
+    query: Query, tasks: Mapping[Path, GroundedTask], path: Path, most: int, parts: dict[Path, Formula]
+) -> Formula:
+    """The formula of the part at a path, with at most so many choices of things that its tasks share; it is noted, as
+    are those of its parts.
+    """
     if isinstance(query, ContextualQuery):
-        return formulas[path]
-    operands = [_formula(operand, formulas, (*path, place)) for place, operand in enumerate(query.operands)]
+        parts[path] = tasks[path].formula
+        return parts[path]
+    shared = choices(query, tasks, path)
+    operands = [_formula(operand, tasks, (*path, place), most, parts) for place, operand in enumerate(query.operands)]
+    if shared is not None:
+        quantifier, chosen = shared
+        if len(chosen) > most:
+            raise FormulaTooLargeError(f"{query} has more than {MAX_COMBINATIONS} combinations of things")
+        join = conjunction if quantifier is Quantifier.ALL else disjunction
+        parts[path] = join(*(_formula(query, choice, path, most // len(chosen), {}) for choice in chosen))
+        return parts[path]
     try:
-        formulas[path] = compose(query.operator, operands)
-        return formulas[path]
+        parts[path] = compose(query.operator, operands)
+        return parts[path]
     except CompositionError as error:
         detail = f"{query}: {error.detail}"
         raise CompositionError(detail, places=[Place(pointer_of(path), detail)]) from None

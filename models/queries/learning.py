@@ -23,7 +23,7 @@ from models.queries.errors import (
 )
 from models.queries.lifting import lift, resolve_grounded, shape, slots
 from models.queries.template import Template, nothing_called, parameter_kinds
-from models.world import Environment, Symbol, UnknownObjectError, ground
+from models.world import Environment, Quantifier, Symbol, UnknownObjectError, ground
 
 Column = tuple[Symbol, ...]
 """The symbols that a set of places of the formula holds, one per example."""
@@ -95,8 +95,11 @@ def _feasible(
     for number, example in enumerate(examples):
         phrase = example.query.arguments[index]
         pointer = f"/{number}/query/arguments/{index}"
-        found = ground(phrase, environment).candidates
-        symbols = {candidate.symbol for candidate in found if candidate.misspelt is None}  # what is taught is exact
+        found = ground(phrase, environment)
+        if found.quantifier is not Quantifier.ONE:
+            detail = f'"{phrase}" speaks of {found.quantifier.value} of several things; in an example, name one'
+            raise UnknownObjectError(detail, places=[Place(pointer, detail)])
+        symbols = {each.symbol for each in found.candidates if each.misspelt is None}  # what is taught is exact
         if not symbols:
             detail = nothing_called(phrase, environment)
             raise UnknownObjectError(detail, places=[Place(pointer, detail)])

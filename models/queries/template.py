@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from math import prod
 
 from models.errors import Place
 from models.logic import (
     Atom,
     Formula,
+    FormulaTooLargeError,
     Name,
     Nary,
     Op,
@@ -17,6 +20,8 @@ from models.logic import (
     Unary,
     atoms,
     children,
+    conjunction,
+    disjunction,
     substitute,
 )
 from models.queries.contextual_query import ContextualQuery
@@ -24,14 +29,18 @@ from models.queries.errors import AmbiguousGroundingError, ArityMismatchError
 from models.world import (
     Candidate,
     Environment,
+    Grounding,
     PartOfSpeech,
+    Quantifier,
     TypeMismatchError,
     UnknownObjectError,
     UnknownPropositionError,
     distinct_name,
     ground,
     resolve,
+    speaks_of_others,
     suggest,
+    with_values,
 )
 
 Kinds = frozenset[str]
@@ -59,13 +68,25 @@ class Template:
         return len(self.kinds)
 
 
+MAX_COMBINATIONS = 64
+"""Most ways to choose a thing for each argument that speaks of several ("any toy", "every box")."""
+
+
 @dataclass(frozen=True, slots=True)
 class Binding:
-    """What one argument grounded to: 1-based position, phrase, object or value, and why."""
+    """What one argument grounded to: 1-based position, phrase, and the thing or value with why; with the quantifiers
+    `ANY` and `ALL` the things.
+    """
 
     position: int
     phrase: str
-    candidate: Candidate
+    candidates: tuple[Candidate, ...]
+    quantifier: Quantifier = Quantifier.ONE
+
+    @property
+    def candidate(self) -> Candidate:
+        """The one thing, or the first of several."""
+        return self.candidates[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +96,14 @@ class GroundedTask:
     query: ContextualQuery
     formula: Formula
     bindings: tuple[Binding, ...]
+    filled: Callable[[Sequence[Binding]], Formula] | None = field(default=None, compare=False, repr=False)
+    """The formula for other bindings of the arguments; None where there is no environment to bind them in."""
+
+    def rebound(self, bindings: tuple[Binding, ...]) -> GroundedTask:
+        """The task with other bindings."""
+        if self.filled is None or bindings == self.bindings:
+            return self
+        return replace(self, formula=self.filled(bindings), bindings=bindings)
 
 
 def parameter_kinds(formula: Formula, environment: Environment, arity: int) -> tuple[Kinds, ...]:
@@ -113,6 +142,9 @@ def evaluate(
 ) -> GroundedTask:
     """Ground the query's arguments and put them into the template, all at once (paper, § Lifted LTL and Templated LTL).
 
+    An argument that speaks of several things ("any red toy", "every box") makes the formula the disjunction, or the
+    conjunction, of the formulas for each of them; of several such arguments the first is outermost.
+
     Args:
         parts_of_speech: per argument what a tagger said of it in its sentence, where that is known.
 
@@ -122,6 +154,7 @@ def evaluate(
         TypeMismatchError: a phrase names only things that the place does not take.
         AmbiguousGroundingError: a phrase fits several things, and all others fit something.
         UnknownPropositionError: the environment lacks a propositional function of the template.
+        FormulaTooLargeError: there are more than `MAX_COMBINATIONS` ways to choose from the things spoken of.
     """
     check_arity(template, query)
     kinds = parameter_kinds(template.formula, environment, template.arity)
@@ -136,13 +169,29 @@ def evaluate(
         except AmbiguousGroundingError as error:
             doubt = doubt or error  # no use in asking which, when another phrase names nothing
             continue
-        bindings.append(Binding(index + 1, phrase, found))
+        bindings.append(Binding(index + 1, phrase, found.candidates, found.quantifier))
     if doubt is not None:
         raise doubt
-    terms: dict[Term, Term] = {
-        Parameter(b.position): Name(distinct_name(b.candidate.symbol, environment)) for b in bindings
-    }
-    return GroundedTask(query, resolve(substitute(template.formula, terms), environment), tuple(bindings))
+    combinations = prod(len(binding.candidates) for binding in bindings)
+    if combinations > MAX_COMBINATIONS:
+        detail = f"{query} has {combinations} combinations of things in {environment.name}; at most {MAX_COMBINATIONS}"
+        raise FormulaTooLargeError(detail)
+    filled = partial(_filled, template.formula, environment)
+    return GroundedTask(query, filled(bindings), tuple(bindings), filled)
+
+
+def _filled(formula: Formula, environment: Environment, bindings: Sequence[Binding]) -> Formula:
+    """The formula of a template with every parameter bound; the first quantifier is outermost."""
+
+    def chosen(left: Sequence[Binding], terms: dict[Term, Term]) -> Formula:
+        if not left:
+            return resolve(substitute(formula, terms), environment)
+        binding, *later = left
+        names = (Name(distinct_name(candidate.symbol, environment)) for candidate in binding.candidates)
+        formulas = [chosen(later, {**terms, Parameter(binding.position): name}) for name in names]
+        return (conjunction if binding.quantifier is Quantifier.ALL else disjunction)(*formulas)
+
+    return chosen(bindings, {})
 
 
 def put_in(template: Template, query: ContextualQuery) -> GroundedTask:
@@ -167,14 +216,15 @@ def check_arity(template: Template, query: ContextualQuery) -> None:
 
 def nothing_called(phrase: str, environment: Environment, kinds: Kinds | None = None) -> str:
     """That a phrase names nothing, as a sentence, with what it may be a misspelling of."""
-    sentence = f'nothing in {environment.name} is called "{phrase}"'
+    verb = "fits" if speaks_of_others(phrase, environment) else "is called"
+    sentence = f'nothing in {environment.name} {verb} "{phrase}"'
     near = suggest(phrase, environment, kinds=kinds)
     return f"{sentence} (did you mean {' or '.join(near)}?)" if near else sentence
 
 
 @dataclass(frozen=True, slots=True)
 class _Description:
-    """An argument with the attribute values that the template says of it in front, and the types of these values."""
+    """An argument with the attribute values that the template says of it, and the types of these values."""
 
     phrase: str
     types: Kinds
@@ -196,7 +246,7 @@ def _describing(
     others = sorted(positions - {index})
     values = [query.arguments[position] for position in others]
     types = frozenset[str]().union(*(kinds[position] for position in others))
-    return _Description(" ".join([*values, query.arguments[index]]), types)
+    return _Description(with_values(query.arguments[index], values) if values else query.arguments[index], types)
 
 
 def _demanded(formula: Formula) -> Iterator[Atom]:
@@ -232,16 +282,19 @@ def _ground_argument(
     pos: PartOfSpeech | None,
     said: _Description,
     taught: Kinds,
-) -> Candidate:
+) -> Grounding:
     phrase, pointer = query.arguments[index], f"/arguments/{index}"
-    candidates = ground(phrase, environment, kinds=kinds, pos=pos).candidates
+    found = ground(phrase, environment, kinds=kinds, pos=pos)
+    candidates = found.candidates
     if len(candidates) != 1 and said.phrase != phrase:
         phrase = said.phrase
         candidates = ground(phrase, environment, kinds=kinds).candidates or _undescribed(candidates, said, environment)
+    if candidates and found.quantifier is not Quantifier.ONE:
+        return replace(found, candidates=candidates)
     if len(candidates) > 1 and all(environment.vocabulary.is_object(c.symbol) for c in candidates):
         candidates = tuple(c for c in candidates if c.symbol.kind in taught) or candidates
     if len(candidates) == 1:
-        return candidates[0]
+        return replace(found, candidates=candidates)
     if candidates:
         names = ", ".join(candidate.symbol.name for candidate in candidates)
         detail = f'"{phrase}" fits several in {environment.name}: {names}'

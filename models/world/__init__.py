@@ -1,6 +1,7 @@
 """Object-oriented worlds: the language, built-in domains, compiled dynamics, grounding of names and phrases."""
 
 from models.world.builders import navigation_spec, toys_spec
+from models.world.description import Candidate
 from models.world.domain import Function, FunctionParameter
 from models.world.environment import Environment, compile_world
 from models.world.errors import (
@@ -13,11 +14,12 @@ from models.world.errors import (
 from models.world.explanation import explain
 from models.world.explicit import ExplicitWorld
 from models.world.factors import Factored, FactoredAction, Range
-from models.world.grounding import Candidate, Grounding, PartOfSpeech, ground
+from models.world.grounding import Grounding, PartOfSpeech, ground, speaks_of_others
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.oomdp import OomdpWorld
 from models.world.outline import Part, outline
+from models.world.quantifiers import Quantifier, widened, with_values
 from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import ProjectedWorld, Projection, relevant_part
 from models.world.resolution import atom_symbols, distinct_name, resolve
@@ -47,6 +49,7 @@ __all__ = [
     "PartOfSpeech",
     "ProjectedWorld",
     "Projection",
+    "Quantifier",
     "Range",
     "ReachableWorld",
     "State",
@@ -71,6 +74,9 @@ __all__ = [
     "reachable_part",
     "relevant_part",
     "resolve",
+    "speaks_of_others",
     "suggest",
     "toys_spec",
+    "widened",
+    "with_values",
 ]

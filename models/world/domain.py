@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from models.world.degrees import Scale
 from models.world.expression import Expression
 
 
@@ -110,3 +111,4 @@ class Domain:
     actions: tuple[Action, ...]
     constraints: tuple[Expression, ...]
     texts: tuple[str, ...]  # the constraints as written
+    scales: Mapping[str, Scale]  # of the attribute types whose values are ordered

@@ -25,6 +25,7 @@ from models.world.name_faults import name_fault
 from models.world.names import IDENTIFIER, NONE, hint
 from models.world.phrases import readable
 from models.world.report import Report
+from models.world.scale_reader import read_scales
 from models.world.specs import ActionSpec, DefinitionSpec, DomainSpec, FunctionSpec, OutcomeSpec
 from models.world.verbs import denial
 
@@ -56,6 +57,7 @@ class _Reader:
             report.add([], f"the expressions have more than {MAX_TEXTS} characters together")
             return None
         attributes = {kind: self._values(kind, values) for kind, values in spec.attributes.items()}
+        scales = read_scales(spec.ordered, attributes, report)
         classes = {name: self._class(name) for name in spec.classes}
         parameters = {name: self._parameter(name) for name in spec.parameters}
         self._constants()
@@ -72,7 +74,7 @@ class _Reader:
         constraints = [self._typed(("constraints", i), text, {}, checker) for i, text in enumerate(spec.constraints)]
         return Domain(
             spec.name, parameters, attributes, classes, dict(spec.constants), definitions, functions, actions,
-            tuple(constraints), tuple(spec.constraints),
+            tuple(constraints), tuple(spec.constraints), scales,
         )  # fmt: skip
 
     def _sizes(self) -> None:
@@ -80,6 +82,7 @@ class _Reader:
         sections: dict[str, Mapping[str, object] | list[str]] = {
             "parameters": spec.parameters,
             "attributes": spec.attributes,
+            "ordered": spec.ordered,
             "classes": spec.classes,
             "constants": spec.constants,
             "define": spec.define,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from models.world.domain import Domain
 from models.world.domain_reader import read_values
@@ -234,6 +234,9 @@ class _Reader:
             if spec.synonyms
         }
         class_words = {name: (name, *declared.words) for name, declared in self.domain.classes.items()}
+        values: dict[str, list[str]] = {}
+        for value in self.values:
+            values.setdefault(value.kind, []).append(value.name)
         return Vocabulary(
             tuple(self.objects.values()),
             self.values,
@@ -241,4 +244,7 @@ class _Reader:
             synonyms,
             self.static,
             class_words,
+            {name: declared.state for name, declared in self.domain.classes.items()},
+            {kind: replace(scale, values=tuple(values[kind])) for kind, scale in self.domain.scales.items()},
+            tuple(self.objects[name] for name in self.domain.constants),
         )

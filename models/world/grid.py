@@ -10,7 +10,7 @@ from models.world.names import hint
 from models.world.report import Report
 from models.world.specs import GridSpec
 
-_DIRECTIONS = {"north": (0, -1), "south": (0, 1), "east": (1, 0), "west": (-1, 0)}
+DIRECTIONS = {"north": (0, -1), "south": (0, 1), "east": (1, 0), "west": (-1, 0)}
 BLOCKED = "#"
 UNNAMED = "."
 
@@ -32,7 +32,7 @@ def read_grid(spec: GridSpec, report: Report) -> Grid:
     by_place = {place: name for name, place in cells.items()}
     neighbours: dict[str, dict[str, str]] = {}
     for name, (column, row) in cells.items():
-        ahead = {d: by_place.get((column + dx, row + dy), name) for d, (dx, dy) in _DIRECTIONS.items()}
+        ahead = {d: by_place.get((column + dx, row + dy), name) for d, (dx, dy) in DIRECTIONS.items()}
         neighbours[name] = {d: name if (name, other) in walls else other for d, other in ahead.items()}
     return Grid(cells, neighbours)
 

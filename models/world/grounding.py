@@ -1,53 +1,55 @@
 """Phrases of a command to the symbols of an environment: one, several with why, or none.
 
-A phrase is tried in four ways, and the first that finds something decides:
+A phrase is tried in six ways, and the first that finds something decides:
 
 1. it is the name of a symbol, or a synonym of one ("cylinder", "the H&M", "orange");
 2. the same, but for a plural ("the cylinders");
-3. it describes objects: a head noun (the end of a name or synonym, the class, "one") with attribute values and
+3. it compares things on an ordered attribute ("the smaller of the two boxes", "the biggest red toy in the kitchen");
+4. it says how a thing stands to another one, as things are now ("the toy in the box", "the lamp in the red room");
+5. it describes objects: a head noun (the end of a name or synonym, the class, "one") with attribute values and
    further words of the name in any order ("the small red bucket", "toy that is red", "red");
-4. one word is misspelt by one letter, or a space is wrong, and the phrase so corrected is one of the above ("sphree").
+6. one word is misspelt by one letter, or a space is wrong, and the phrase so corrected is one of the above ("sphree").
 
-Kinds narrow all four. What means something of another kind as it stands is no misspelling: with a cart and a card at
+Kinds narrow all six. What means something of another kind as it stands is no misspelling: with a cart and a card at
 hand, "card" is never read as "cart". Where kinds leave both a value and an object with the name, the part of speech
 decides: an adjective is a value, a noun an object.
+
+A phrase that is no name and begins with a quantifier ("any", "every", "both of") speaks of all the objects that what
+follows can mean: those of the name, and those of the description.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import wraps
 from typing import Literal
 
+from models.world.degrees import DISTANCE, Degree
+from models.world.description import FILLERS, GENERIC, Candidate, Kinds, anything, described, named
 from models.world.environment import Environment
-from models.world.names import listing, singular, words
-from models.world.phrase_index import DETERMINERS, Traits, Words, spoken_words
+from models.world.limits import MAX_RELATED
+from models.world.names import singular
+from models.world.phrase_index import WHATEVER, Words
+from models.world.quantifiers import Quantifier, counted, quantified
 from models.world.vocabulary import Symbol, Vocabulary
 
 PartOfSpeech = Literal["noun", "adjective"]
-Kinds = frozenset[str]
-_FILLERS = DETERMINERS | frozenset(words("which is are and with of in color colored shaped sized"))
-_GENERIC = frozenset({"one", "thing", "object", "item"})
 _LONGEST = 20  # words
-Read = Callable[[Words, Vocabulary, Kinds | None], list["Candidate"]]
+_Read = Callable[[Words, Kinds | None], list[Candidate]]
 """A way to take words by their letters."""
-
-
-@dataclass(frozen=True, slots=True)
-class Candidate:
-    """A symbol that a phrase may mean, and why, for people; `misspelt` is what was taken for a typing mistake."""
-
-    symbol: Symbol
-    reason: str
-    misspelt: str | None = None
+_Figures = Callable[[Words, Kinds | None], Iterable[list[Candidate]]]
 
 
 @dataclass(frozen=True, slots=True)
 class Grounding:
-    """What a phrase may mean; the candidates are in the environment's order of symbols."""
+    """What a phrase may mean, in the environment's order of symbols: with the quantifier `ONE` one of the candidates is
+    meant, with `ANY` whichever of them, with `ALL` every one of them.
+    """
 
     phrase: str
     candidates: tuple[Candidate, ...]
+    quantifier: Quantifier = Quantifier.ONE
 
 
 def ground(
@@ -58,53 +60,35 @@ def ground(
     pos: PartOfSpeech | None = None,
 ) -> Grounding:
     """The symbols, of the given kinds if any, that a phrase may mean; none of a phrase of more than 20 words."""
-    vocabulary = environment.vocabulary
-    spoken = spoken_words(phrase)
-    if not spoken or len(spoken) > _LONGEST:
+    reader = _Reader(environment)
+    said = quantified(phrase)
+    whole = (*said.before, *said.rest)
+    if not whole or len(whole) > _LONGEST:
         return Grounding(phrase, ())
-    for read in (_named, _described):
-        if found := read(spoken, vocabulary, kinds):
-            return Grounding(phrase, _decided(found, vocabulary, pos))
-    if kinds is not None and any(read(spoken, vocabulary, None) for read in (_named, _described)):
-        return Grounding(phrase, ())
-    for read in (_named, _described):
-        if found := _corrected(read, spoken, vocabulary, kinds):
-            return Grounding(phrase, _decided(found, vocabulary, pos))
-    return Grounding(phrase, ())
+    if said.quantifier is not Quantifier.ONE:
+        if reader.named(whole, None):  # "All Saints"
+            return Grounding(phrase, _decided(reader.named(whole, kinds), environment.vocabulary, pos))
+        return _number_kept(phrase, reader.every(said.rest, kinds), said.quantifier, said.number)
+    return Grounding(phrase, _decided(reader.one(whole, kinds), environment.vocabulary, pos))
 
 
-def _named(spoken: Words, vocabulary: Vocabulary, kinds: Kinds | None) -> list[Candidate]:
-    """The symbols with this name or synonym. Both count alike: who gives a synonym wants it understood."""
-    phrases = vocabulary.phrases
-    for called in (phrases.called(spoken), phrases.called_singular(spoken)):
-        symbols = _of_kinds(called, kinds)
-        if symbols:
-            return [Candidate(symbol, _name_reason(symbol, called[symbol], vocabulary)) for symbol in symbols]
-    return []
+def speaks_of_others(phrase: str, environment: Environment) -> bool:
+    """Whether a phrase is more than a name or a description: it speaks of several things, compares things, or says how
+    one stands to another.
+    """
+    said, vocabulary = quantified(phrase), environment.vocabulary
+    return (
+        said.quantifier is not Quantifier.ONE
+        or any(vocabulary.comparing(said.rest))
+        or any(vocabulary.relations.splits(said.rest))
+    )
 
 
-def _corrected(read: Read, spoken: Words, vocabulary: Vocabulary, kinds: Kinds | None) -> list[Candidate]:
-    """What the words mean with one typing mistake put right, in every way that makes sense."""
-    found: dict[Symbol, Candidate] = {}
-    for correction in vocabulary.phrases.corrections(spoken):
-        if correction.wrong not in _FILLERS | _GENERIC:
-            for candidate in read(correction.spoken, vocabulary, kinds):
-                reason = f'{candidate.reason}, reading "{correction.wrong}" as "{correction.meant}"'
-                found.setdefault(candidate.symbol, replace(candidate, reason=reason, misspelt=correction.wrong))
-    if len(found) < 2:
-        return list(found.values())
-    return [found[symbol] for symbol in vocabulary.symbols() if symbol in found]
-
-
-def _of_kinds(symbols: Iterable[Symbol], kinds: Kinds | None) -> list[Symbol]:
-    return [symbol for symbol in symbols if kinds is None or symbol.kind in kinds]
-
-
-def _name_reason(symbol: Symbol, called: str, vocabulary: Vocabulary) -> str:
-    if called != symbol.name:
-        return f"{called} is a synonym of {symbol.name}"
-    kind = symbol.kind.replace("_", " ")
-    return f"a {kind} named {symbol.name}" if vocabulary.is_object(symbol) else f"the {kind} {symbol.name}"
+def _number_kept(phrase: str, found: Sequence[Candidate], quantifier: Quantifier, number: int | None) -> Grounding:
+    """All that was found; of "both boxes" nothing where there is one box, and a doubt where there are three."""
+    if quantifier is Quantifier.ALL and number is not None and number != len(found):
+        return Grounding(phrase, tuple(found) if len(found) > number else ())
+    return Grounding(phrase, tuple(found), quantifier)
 
 
 def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech | None) -> tuple[Candidate, ...]:
@@ -117,43 +101,177 @@ def _decided(found: list[Candidate], vocabulary: Vocabulary, pos: PartOfSpeech |
     return (*objects, *values)
 
 
-def _described(spoken: Words, vocabulary: Vocabulary, kinds: Kinds | None) -> list[Candidate]:
-    """The values that the words name with their type, else the objects of which they are a description."""
-    typed = _of_kinds(vocabulary.phrases.typed_values(spoken), kinds)
-    if typed:
-        return [Candidate(symbol, _name_reason(symbol, symbol.name, vocabulary)) for symbol in typed]
-    content = [singular(word) for word in spoken if word not in _FILLERS]
-    phrases = vocabulary.phrases
-    symbols = _of_kinds(phrases.described([word for word in content if word not in _GENERIC], content), kinds)
-    described = [_describe(content, symbol, phrases.traits(symbol)) for symbol in symbols]
-    return [candidate for candidate in described if candidate is not None]
+def _remembering(read: Callable[[_Reader, Words, Kinds | None], list[Candidate]]) -> Callable[..., list[Candidate]]:
+    """What was read once is not read again: a phrase is part of others, in many ways."""
+
+    @wraps(read)
+    def remembered(reader: _Reader, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        key = (read.__name__, said, kinds)
+        if key not in reader.memory:
+            reader.memory[key] = read(reader, said, kinds)
+        return reader.memory[key]
+
+    return remembered
 
 
-def _describe(content: list[str], symbol: Symbol, traits: Traits) -> Candidate | None:
-    """The object as a candidate if every word of the phrase says something of it, and one of them more than "one".
+class _Reader:
+    """Reads phrases in one environment."""
 
-    What a word may say: an attribute's value, the class, part of a name that the phrase has the head noun (the last
-    word) of, or nothing much ("one").
-    """
-    said = [(attribute, value, stems) for attribute, value, stems in traits.values if _contains(content, stems)]
-    rest = set(content).difference(*(stems for _, _, stems in said))
-    nouns = rest & traits.nouns
-    rest -= nouns | _GENERIC
-    plain = bool(said or nouns)
-    by_name = not (plain and not rest) and any(rest <= name for word in content for name in traits.names.get(word, ()))
-    if not by_name and (rest or not plain):
-        return None
-    return Candidate(symbol, _description(symbol, [(attribute, value) for attribute, value, _ in said], by_name))
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+        self._vocabulary = environment.vocabulary
+        self.memory: dict[tuple[str, Words, Kinds | None], list[Candidate]] = {}
+
+    def one(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """What a phrase without quantifier may mean."""
+        return self._spelled(self._one, said, kinds)
+
+    def every(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """All objects that a phrase can mean."""
+        return self._spelled(self._every, said, kinds)
+
+    def named(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """The symbols of that name."""
+        return named(said, self._vocabulary, kinds)
+
+    def _spelled(self, read: _Read, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """What the words mean as they stand; where that is nothing at all, with a typing mistake put right."""
+        if (found := read(said, kinds)) or (kinds is not None and read(said, None)):
+            return found
+        return self._corrected(read, said, kinds)
+
+    @_remembering
+    def _one(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        ways = (self.named, self._compared, self._related, self._described)
+        return next((found for read in ways if (found := read(said, kinds))), [])
+
+    @_remembering
+    def _every(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        if _is_generic(said):
+            known = [] if WHATEVER in said else self._described(said, kinds)
+            return self._objects(known or anything(self._environment, kinds))
+        ways = (self._compared, self._every_related, self._described)
+        more = next((found for read in ways if (found := read(said, kinds))), [])
+        return self._objects(self._ordered([*self.named(said, kinds), *more]))
+
+    def _described(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        return described(said, self._environment, kinds)
+
+    @_remembering
+    def _compared(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """Those of the things said that come first or last on the scale of a word that compares."""
+        for place, length, degrees in self._vocabulary.comparing(said):
+            if self._vocabulary.relations.mentioned(said[:place]):
+                return []  # "the toy in the smaller box" compares no toys
+            rest = (*said[:place], *_of_what(said[place + length :]))
+            things = self._every(rest or (WHATEVER,), kinds)
+            found = [each for degree in degrees for each in self._extreme(things, degree, said[place : place + length])]
+            if found:
+                return self._ordered(found)
+        return []
+
+    def _extreme(self, things: Sequence[Candidate], degree: Degree, said: Words) -> list[Candidate]:
+        """The things furthest in a direction; with a comparative, those beyond another. All where all are alike."""
+        ranks = {each.symbol: self._rank(each.symbol, degree) for each in things}
+        placed = {symbol: rank for symbol, rank in ranks.items() if rank is not None}
+        if not placed:
+            return []
+        first, last = min(placed.values()), max(placed.values())
+        least = last if degree.superlative or first == last else first + 1
+        meant = {symbol for symbol, rank in placed.items() if rank >= least}
+        word = " ".join(said)
+        return [replace(each, reason=f"{each.reason}, the {word}") for each in things if each.symbol in meant]
+
+    def _rank(self, symbol: Symbol, degree: Degree) -> int | None:
+        """How far an object's value is in the direction of a degree; None for one without."""
+        if degree.kind == DISTANCE:
+            distance = self._environment.situation.distance(symbol)
+            return None if distance is None else degree.direction * distance
+        facts = (self._vocabulary.static.get(symbol, {}), self._environment.situation.values(symbol))
+        values = (value for attributes in facts for value in attributes.values() if value.kind == degree.kind)
+        value = next(values, None)
+        return None if value is None else degree.direction * self._vocabulary.scales[degree.kind].ranks[value.name]
+
+    @_remembering
+    def _related(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """The things that stand to another thing as the words say."""
+        return self._standing(said, kinds, self._figures)
+
+    def _every_related(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        return self._standing(said, kinds, lambda figure, kinds: (self._every(figure, kinds),))
+
+    def _standing(self, said: Words, kinds: Kinds | None, figures_of: _Figures) -> list[Candidate]:
+        relations, situation = self._vocabulary.relations, self._environment.situation
+        for split in relations.splits(said):
+            if any(self._vocabulary.comparing(split.figure)):
+                continue  # "the smallest box in the kitchen" is the smallest of those there
+            holds = relations.test(split.relation, situation)
+            for grounds in self._grounds(split.ground):
+                for figures in figures_of(split.figure, kinds):
+                    if found := _those_that(holds, figures, grounds, split.relation):
+                        return found
+        return []
+
+    def _figures(self, figure: Words, kinds: Kinds | None) -> Iterator[list[Candidate]]:
+        """What is sought: a thing of that name, else of that description."""
+        yield self._objects(self.named(figure, kinds))
+        yield self._related(figure, kinds)
+        yield self._objects(self._described(figure, kinds))
+        if _is_generic(figure):
+            yield anything(self._environment, kinds)
+
+    def _grounds(self, ground: Words) -> Iterator[list[Candidate]]:
+        """What it stands to: the thing of that name; else, or of "a box", whatever can be called so."""
+        said = quantified(" ".join(ground))
+        if said.quantifier is Quantifier.ONE and ground[0] not in ("a", "an"):
+            yield self._objects(self._one(said.rest, None))
+        yield self._every(counted(said.rest)[0], None)
+
+    def _objects(self, found: Iterable[Candidate]) -> list[Candidate]:
+        return [each for each in found if self._vocabulary.is_object(each.symbol)]
+
+    def _corrected(self, read: _Read, said: Words, kinds: Kinds | None) -> list[Candidate]:
+        """What the words mean with one typing mistake put right, in every way that makes sense."""
+        found: dict[Symbol, Candidate] = {}
+        for correction in self._vocabulary.phrases.corrections(said):
+            if correction.wrong not in FILLERS | GENERIC:
+                for candidate in read(correction.spoken, kinds):
+                    reason = f'{candidate.reason}, reading "{correction.wrong}" as "{correction.meant}"'
+                    found.setdefault(candidate.symbol, replace(candidate, reason=reason, misspelt=correction.wrong))
+        return self._ordered(found.values())
+
+    def _ordered(self, found: Iterable[Candidate]) -> list[Candidate]:
+        """The candidates in the environment's order, each symbol once, as it was found first."""
+        by_symbol: dict[Symbol, Candidate] = {}
+        for candidate in found:
+            by_symbol.setdefault(candidate.symbol, candidate)
+        if len(by_symbol) < 2:
+            return list(by_symbol.values())
+        return [by_symbol[symbol] for symbol in self._vocabulary.symbols() if symbol in by_symbol]
 
 
-def _contains(content: list[str], stems: Words) -> bool:
-    return any(tuple(content[start : start + len(stems)]) == stems for start in range(len(content) - len(stems) + 1))
+def _is_generic(said: Words) -> bool:
+    """Whether the words say nothing of a thing: "one", "objects"."""
+    content = [singular(word) for word in said if word not in FILLERS]
+    return bool(content) and GENERIC.issuperset(content)
 
 
-def _description(symbol: Symbol, values: list[tuple[str, str]], by_name: bool) -> str:
-    kind = symbol.kind.replace("_", " ")
-    named = f" named {symbol.name}" if by_name else ""
-    if not values:
-        return f"a {kind}{named}"
-    said = listing((f"{attribute.replace('_', ' ')} is {value}" for attribute, value in values), "and")
-    return f"a {kind}{named} whose {said}"
+def _of_what(said: Words) -> Words:
+    """The words after one that compares, without what only leads to the things: "of the two boxes" -> "boxes"."""
+    if said[:2] == ("one", "of"):
+        said = said[1:]
+    return counted(said[1:])[0] if said[:1] == ("of",) and len(said) > 1 else said
+
+
+def _those_that(
+    holds: Callable[[Symbol, Symbol], bool], figures: Sequence[Candidate], grounds: Sequence[Candidate], relation: Words
+) -> list[Candidate]:
+    """The figures that stand to one of the grounds at least, with that one as a further reason."""
+    if len(figures) * len(grounds) > MAX_RELATED:
+        return []
+    found = []
+    for figure in figures:
+        ground = next((each.symbol for each in grounds if holds(figure.symbol, each.symbol)), None)
+        if ground is not None:
+            found.append(replace(figure, reason=f"{figure.reason}, {' '.join(relation)} {ground.name}"))
+    return found

@@ -38,6 +38,8 @@ MAX_CHECK: Final = 2**20
 """Combinations of variable values over which one action's probabilities and effects are checked."""
 MAX_WORK: Final = 2**25
 """Table entries computed while an environment is compiled."""
+MAX_RELATED: Final = 10_000
+"""Pairs of objects looked at for how one stands to the other, in one phrase; beyond it the phrase names nothing."""
 MAX_EXPLICIT_STATES: Final = 1_000_000
 """States of an explicit environment."""
 MAX_EXPLICIT_OUTCOMES: Final = 2**24

@@ -65,11 +65,11 @@ class OomdpWorld:
 
     def is_valid(self, index: int) -> bool:
         """Whether one state satisfies the constraints, in a world of any size."""
-        digits = {
-            v: np.array([index // s % r]) for v, (s, r) in enumerate(zip(self._strides, self._radix, strict=True))
-        }
-        batch = Batch(self._radix, self._strides, np.zeros(1, dtype=np.int64), digits)
-        return bool(np.all(evaluate(self._valid, batch)))
+        return self._true(self._valid, index)
+
+    def holds(self, atom: Atom, index: int) -> bool:
+        """Whether an atom holds in one state, in a world of any size; raises as `labels`."""
+        return self._true(self._proposition(atom), index)
 
     def decode(self, index: int) -> dict[str, dict[str, str]]:
         """See `World.decode`."""
@@ -120,6 +120,12 @@ class OomdpWorld:
         self._require_indices()
         frame, here = self._frame(states)
         return np.array(np.broadcast_to(evaluate(value, frame), here.shape)).reshape(-1)
+
+    def _true(self, value: Value, index: int) -> bool:
+        """Whether a value is true in one state, whose index may be beyond 64 bits."""
+        digits = {v: np.array([index // self._strides[v] % self._radix[v]]) for v in value.scope}
+        batch = Batch(self._radix, self._strides, np.zeros(1, dtype=np.int64), digits)
+        return bool(np.all(evaluate(value, batch)))
 
     def _frame(self, states: NDArray[np.int64] | None) -> tuple[Frame, NDArray[np.int64]]:
         """All states or some, and their indices in the frame's shape."""

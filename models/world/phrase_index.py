@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from models.world.vocabulary import Symbol, Vocabulary
 
 DETERMINERS = frozenset(words("the a an this that these those my your his her its our their some"))
+WHATEVER = "*"
+"""Stands for "thing" in "anything": a word that nobody can say, so that no name is taken for it."""
 MAX_CORRECTED = 8
 """Most words of a phrase that is searched for a typing mistake."""
 Words = tuple[str, ...]
@@ -66,20 +68,26 @@ class PhraseIndex:
         """The attribute values of which the words are name and type: "color red", "red color"."""
         return self._typed.get(spoken, ())
 
-    def described(self, stems: Iterable[str], more: Iterable[str]) -> Iterable[Symbol]:
-        """The objects of which each of the stems can say something; without stems, at least one of `more`."""
-        found = sorted((self._by_trait.get(stem, {}) for stem in set(stems)), key=len)
+    def described(
+        self, stems: Iterable[str], more: Iterable[str], valued: Callable[[str], Mapping[Symbol, None]]
+    ) -> Iterable[Symbol]:
+        """The objects of which each of the stems can say something; without stems, at least one of `more`.
+
+        `valued` gives the objects of which a stem says something now, besides what it says of them at any time.
+        """
+        found = sorted(({**self._by_trait.get(stem, {}), **valued(stem)} for stem in set(stems)), key=len)
         if found:
             first, *others = found
             return (symbol for symbol in first if all(symbol in other for other in others))
         some = {symbol for stem in more for symbol in self._by_trait.get(stem, ())}
         return [symbol for symbol in self._vocabulary.objects if symbol in some] if some else ()
 
-    def traits(self, symbol: Symbol) -> Traits:
-        """What words may say of an object."""
+    def traits(self, symbol: Symbol, values: Mapping[str, Symbol]) -> Traits:
+        """What words may say of an object that has some values now, besides those that never change."""
         if symbol not in self._traits:
             self._traits[symbol] = self._traits_of(symbol)
-        return self._traits[symbol]
+        traits = self._traits[symbol]
+        return replace(traits, values=(*traits.values, *self._said(values))) if values else traits
 
     def _corrections(self, spoken: Words) -> tuple[Correction, ...]:
         """The phrases that these words may be with one typing mistake; none of a phrase of very many words.
@@ -164,7 +172,8 @@ class PhraseIndex:
     @cached_property
     def _spelling(self) -> Spelling:
         nouns = (words(noun) for nouns in self._vocabulary.class_words.values() for noun in nouns)
-        return Spelling(word for spoken in chain(self._called, nouns) for word in spoken)
+        degrees = (said for scale in self._vocabulary.scales.values() for said in scale.degrees if len(said) == 1)
+        return Spelling(word for spoken in chain(self._called, nouns, degrees) for word in spoken)
 
     def _traits_of(self, symbol: Symbol) -> Traits:
         names: dict[str, list[frozenset[str]]] = {}
@@ -175,9 +184,13 @@ class PhraseIndex:
         return Traits(tuple(self._values(symbol)), self._nouns(symbol.kind), by_head)
 
     def _values(self, symbol: Symbol) -> Iterator[tuple[str, str, Words]]:
-        for attribute, value in self._vocabulary.static.get(symbol, {}).items():
+        yield from self._said(self._vocabulary.static.get(symbol, {}))
+
+    def _said(self, attributes: Mapping[str, Symbol]) -> Iterator[tuple[str, str, Words]]:
+        for attribute, value in attributes.items():
             if not self._vocabulary.is_object(value):
-                yield attribute, value.name, _singulars(words(value.name))
+                for name in self._vocabulary.adjectives(value):
+                    yield attribute, value.name, _singulars(words(name))
 
     def _nouns(self, kind: str) -> frozenset[str]:
         called = (words(word) for word in self._vocabulary.class_words.get(kind, ()))

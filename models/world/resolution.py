@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from models.logic.formula import Atom, Formula, Name, Parameter, atoms, map_atoms
 from models.world.compound import readings, unknown_part
 from models.world.domain import Function, FunctionParameter
-from models.world.environment import Environment
 from models.world.errors import TypeMismatchError, UnknownObjectError, UnknownPropositionError
 from models.world.names import application, hint, listing
 from models.world.vocabulary import Symbol, Vocabulary
+
+if TYPE_CHECKING:
+    from models.world.environment import Environment
 
 
 def resolve(formula: Formula, environment: Environment) -> Formula:

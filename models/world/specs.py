@@ -48,6 +48,15 @@ class ParameterSpec(_Spec):
     maximum: float | None = Field(None, allow_inf_nan=False, description="Greatest value allowed.")
 
 
+class OrderSpec(_Spec):
+    """What else is said of an attribute type whose values are listed from the least to the most."""
+
+    less: list[str] = Field(
+        default_factory=list, description="Further adjectives for the first value, such as `little`."
+    )
+    more: list[str] = Field(default_factory=list, description="Further adjectives for the last value, such as `big`.")
+
+
 class ClassSpec(_Spec):
     """A class of objects and the attributes that its objects have."""
 
@@ -102,6 +111,11 @@ class DomainSpec(_Spec):
     name: str = Field(description="Name of the domain.")
     parameters: dict[str, ParameterSpec] = Field(default_factory=dict, description="Numbers environments may set.")
     attributes: dict[str, list[str]] = Field(default_factory=dict, description="Attribute types and their values.")
+    ordered: dict[str, OrderSpec] = Field(
+        default_factory=dict,
+        description="The attribute types whose values are listed from the least to the most: they can be compared "
+        "in phrases (`the smaller box`).",
+    )
     classes: dict[str, ClassSpec] = Field(description="Classes of objects.")
     constants: dict[str, str] = Field(
         default_factory=dict, description="Objects that every environment has: name to class."

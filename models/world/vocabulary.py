@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
+from models.world.degrees import Degree, Scale, distances
 from models.world.domain import Function
+from models.world.grid import DIRECTIONS
 from models.world.names import words
 from models.world.phrase_index import PhraseIndex
+from models.world.relations import Relations
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,11 +32,43 @@ class Vocabulary:
     synonyms: Mapping[Symbol, tuple[str, ...]]
     static: Mapping[Symbol, Mapping[str, Symbol]]  # an object's unchanging attributes; absent where it has none
     class_words: Mapping[str, tuple[str, ...]]
+    state_kinds: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
+    """Per class the state attributes and the kinds of what they hold."""
+    scales: Mapping[str, Scale] = field(default_factory=dict)
+    """The attribute types whose values are ordered."""
+    constants: tuple[Symbol, ...] = ()
+    """The objects that every environment of the domain has."""
 
     @cached_property
     def phrases(self) -> PhraseIndex:
         """The symbols by what they are called and what can be said of them."""
         return PhraseIndex(self)
+
+    @cached_property
+    def relations(self) -> Relations:
+        """How objects may stand to each other, as phrases say it."""
+        return Relations(self)
+
+    def comparing(self, said: tuple[str, ...]) -> Iterator[tuple[int, int, tuple[Degree, ...]]]:
+        """The comparatives and superlatives among some words: place, how many words, and what each may ask for."""
+        degrees = self._degrees
+        for place in range(len(said)) if degrees else ():
+            for length in range(min(self._longest_degree, len(said) - place), 0, -1):
+                if (word := said[place : place + length]) in degrees:
+                    yield place, length, degrees[word]
+
+    @cached_property
+    def _degrees(self) -> dict[tuple[str, ...], tuple[Degree, ...]]:
+        found: dict[tuple[str, ...], tuple[Degree, ...]] = {}
+        mapped = any(not DIRECTIONS.keys().isdisjoint(attributes) for attributes in self.static.values())
+        for degrees in (*(scale.degrees for scale in self.scales.values()), distances() if mapped else {}):
+            for said, degree in degrees.items():
+                found[said] = (*found.get(said, ()), degree)
+        return found
+
+    @cached_property
+    def _longest_degree(self) -> int:
+        return max(map(len, self._degrees))
 
     @cached_property
     def _by_name(self) -> dict[str, tuple[Symbol, ...]]:
@@ -66,6 +101,11 @@ class Vocabulary:
     def names(self, symbol: Symbol) -> tuple[str, ...]:
         """A symbol's name and synonyms."""
         return (symbol.name, *self.synonyms.get(symbol, ()))
+
+    def adjectives(self, value: Symbol) -> tuple[str, ...]:
+        """A value's names, and what else its scale calls it: "big" for the last of the sizes."""
+        scale = self.scales.get(value.kind)
+        return self.names(value) if scale is None else (*self.names(value), *scale.also_called(value.name))
 
     def loosely_named(self, name: str) -> tuple[Symbol, ...]:
         """The symbols with this name or synonym up to case, spaces and punctuation."""

@@ -27,7 +27,7 @@ router = APIRouter(tags=["language"])
 @router.post(
     "/translate",
     operation_id="translate",
-    responses=refusals(*BODY, "unknown-environment", "text-too-long", "wrong-answer"),
+    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long", "wrong-answer"),
 )
 def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
@@ -36,6 +36,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
             services,
             body.text,
             environment=body.environment,
+            state=body.state,
             translator=body.translator,
             candidates=body.candidates,
             answers=answers_in(body.answers),
@@ -46,7 +47,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
 @router.post(
     "/translate/batch",
     operation_id="translateBatch",
-    responses=refusals(*BODY, "unknown-environment", "text-too-long"),
+    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long"),
 )
 def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
     """Translate several commands."""
@@ -57,6 +58,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
                     services,
                     text,
                     environment=body.environment,
+                    state=body.state,
                     translator=body.translator,
                     candidates=body.candidates,
                     pointer=f"/texts/{index}",
@@ -119,13 +121,15 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
 @router.post(
     "/ground",
     operation_id="ground",
-    responses=refusals(*BODY, "unknown-environment", "unknown-template", *GROUNDING),
+    responses=refusals(
+        *BODY, "unknown-environment", "unknown-template", "invalid-state", "formula-too-large", *GROUNDING
+    ),
 )
 async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundResponse:
     """Evaluate a contextual query against its template: grounded LTL and the binding of every argument."""
     query = body.contextual_query if body.query is None else query_in(body.query)
     assert query is not None
-    environment, meaning = await run_sync(ground, services, query, body.environment)
+    environment, meaning = await run_sync(ground, services, query, body.environment, body.state)
     assert meaning.query is not None
     return GroundResponse(
         contextual_query=query_out(meaning.query),

@@ -22,6 +22,7 @@ from service.http.schemas import (
     ParameterOut,
     QuestionOut,
     TemplateOut,
+    ThingOut,
     TranslateResponse,
 )
 from service.pipeline import Translated
@@ -67,9 +68,14 @@ def bindings_out(meaning: Meaning) -> list[BindingOut]:
             part=pointer_of(path),
             argument=binding.position,
             phrase=binding.phrase,
+            quantifier=binding.quantifier.value,
             name=binding.candidate.symbol.name,
             kind=binding.candidate.symbol.kind,
             reason=binding.candidate.reason,
+            things=[
+                ThingOut(name=found.symbol.name, kind=found.symbol.kind, reason=found.reason)
+                for found in binding.candidates
+            ],
         )
         for path, binding in meaning.bindings
     ]

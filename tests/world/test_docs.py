@@ -43,6 +43,8 @@ def test_the_complete_example(page):
     assert enabled
     assert world.labels([lit], np.array([world.initial, dark_kitchen, bright])).tolist() == [[False, False, True]]
     assert [c.symbol.name for c in ground("the blue light", environment).candidates] == ["floor_lamp"]
+    assert [c.symbol.name for c in ground("the lamp in the kitchen", environment).candidates] == ["ceiling_lamp"]
+    assert [c.symbol.name for c in ground("the lamp that is on", environment).candidates] == ["floor_lamp"]
     assert [c.symbol.name for c in ground("the lamp", environment).candidates] == ["ceiling_lamp", "floor_lamp"]
 
 

@@ -52,6 +52,84 @@ SWITCHES = {
 }
 """Lamps that a robot switches on and off; never three at once."""
 
+NURSERY = {
+    "name": "nursery",
+    "kind": "oomdp",
+    "domain": "toys",
+    "values": {"color": ["brown"]},
+    "grid": {
+        "class": "cell",
+        "map": ["KB", "LT"],
+        "names": {"K": "kitchen", "B": "bedroom", "L": "living_room", "T": "bathroom"},
+    },
+    "objects": {
+        "box": {"class": "box", "attributes": {"size": "large", "color": "brown"}},
+        "crate": {"class": "box", "attributes": {"size": "small", "color": "red"}},
+        "red_ball": {"class": "toy", "attributes": {"color": "red", "size": "small", "shape": "sphere"}},
+        "blue_ball": {"class": "toy", "attributes": {"color": "blue", "size": "large", "shape": "sphere"}},
+        "cube": {"class": "toy", "attributes": {"color": "red", "size": "large", "shape": "cube"}},
+        "duck": {"class": "toy", "attributes": {"color": "yellow", "size": "small"}},
+    },
+    "state": {
+        "robot": {"at": "kitchen"},
+        "box": {"in": "kitchen"},
+        "crate": {"in": "bedroom"},
+        "red_ball": {"in": "crate"},
+        "blue_ball": {"in": "box"},
+        "cube": {"in": "bedroom"},
+        "duck": {"in": "robot"},
+    },
+}
+"""Four rooms in a square, two boxes and four toys: one in each box, one on the floor, one in the robot's hand."""
+
+PANTRY = {
+    "name": "pantry",
+    "kind": "oomdp",
+    "domain_spec": {
+        "name": "pantry",
+        "attributes": {"heat": ["cold", "cool", "warm", "hot"], "door": ["open", "closed"], "rank": ["good", "plain"]},
+        "ordered": {"heat": {"less": ["icy"]}, "rank": {}},
+        "classes": {
+            "room": {},
+            "robot": {"state": {"at": "room"}},
+            "shelf": {"static": {"stands": "room"}, "state": {"door": "door"}, "words": ["cupboard"]},
+            "dish": {"static": {"rank": "rank", "owner": "person"}, "state": {"on": "shelf | robot", "heat": "heat"}},
+            "person": {},
+        },
+        "constants": {"robot": "robot"},
+        "functions": {
+            "beside": {
+                "arguments": ["x: dish", "y: dish"],
+                "is": "x.on == y.on and x.on is shelf",
+                "says": "{x} is beside {y}",
+            },
+            "seen": {"arguments": ["r: room", "x: dish"], "is": "x.on.stands == r", "says": "{x} is seen from {r}"},
+        },
+        "actions": {"wait": {"outcomes": [{}]}},
+    },
+    "objects": {
+        "hall": {"class": "room"},
+        "cellar": {"class": "room"},
+        "top": {"class": "shelf", "attributes": {"stands": "hall"}},
+        "bottom": {"class": "shelf", "attributes": {"stands": "cellar"}},
+        "soup": {"class": "dish", "attributes": {"rank": "good", "owner": "ann"}},
+        "pie": {"class": "dish", "attributes": {"rank": "plain"}},
+        "ice": {"class": "dish", "synonyms": ["ice on a stick"]},
+        "stick": {"class": "dish"},
+        "ann": {"class": "person"},
+    },
+    "state": {
+        "robot": {"at": "hall"},
+        "top": {"door": "open"},
+        "bottom": {"door": "closed"},
+        "soup": {"on": "top", "heat": "hot"},
+        "pie": {"on": "top", "heat": "warm"},
+        "ice": {"on": "bottom", "heat": "cold"},
+        "stick": {"on": "robot", "heat": "cool"},
+    },
+}
+"""Dishes on shelves that stand in rooms: relations by attributes and by functions, and ordered values."""
+
 TINY = {
     "name": "tiny",
     "kind": "explicit",

@@ -13,6 +13,7 @@ from models.language.spans.tags import Span
 from models.language.tokens import words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation
 from models.queries import ContextualQuery, QuerySyntaxError
+from models.world import widened
 from models.world.spelling import Spelling
 
 
@@ -89,14 +90,26 @@ def understood(readings: Sequence[Translation]) -> float:
 
 
 def _query(name: str, spoken: Sequence[str], mentions: Sequence[Sequence[Span]]) -> ContextualQuery | None:
-    """The query that mentions say, or None when an argument has two that are not the same words."""
+    """The query that mentions say, or None when an argument has two that are not the same words.
+
+    A quantifier before a mention belongs to it, whether or not the network took it for a part: what is said of any or
+    of every toy is not said of the toy.
+    """
     said = [[spoken[begin:end] for begin, end in spans] for spans in mentions]
     if not all(_same(first, other) for first, *others in said for other in others):
         return None
     try:
-        return ContextualQuery(name, tuple(" ".join(first) for first, *_ in said))
+        begins = [_begin(spoken, spans[0][0], mentions) for spans in mentions]
+        phrases = [spoken[begin : spans[0][1]] for begin, spans in zip(begins, mentions, strict=True)]
+        return ContextualQuery(name, tuple(map(" ".join, phrases)))
     except QuerySyntaxError:  # longer than a query may be: one word can be as long as a text
         return None
+
+
+def _begin(spoken: Sequence[str], begin: int, mentions: Sequence[Sequence[Span]]) -> int:
+    """Where a mention begins with its quantifier, unless that is a part of another mention."""
+    start = widened(spoken, begin)
+    return begin if any(start < end <= begin for spans in mentions for _, end in spans) else start
 
 
 def _same(one: Sequence[str], other: Sequence[str]) -> bool:

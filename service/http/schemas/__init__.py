@@ -8,6 +8,7 @@ from service.http.schemas.common import (
     Health,
     QuestionOut,
     Request,
+    ThingOut,
 )
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.explanations import ExplainRequest, ExplainResponse, ExplanationPart, KindOut
@@ -101,6 +102,7 @@ __all__ = [
     "StepResponse",
     "TemplateList",
     "TemplateOut",
+    "ThingOut",
     "Timing",
     "TrajectoryStep",
     "TranslateRequest",

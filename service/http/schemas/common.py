@@ -61,15 +61,28 @@ class ContextualQueryTree(BaseModel):
         return self
 
 
+class ThingOut(BaseModel):
+    """An object or attribute value that a phrase names."""
+
+    name: str
+    kind: str = Field(description="Its class or attribute type.")
+    reason: str = Field(description="Why the phrase names it.")
+
+
 class BindingOut(BaseModel):
     """What an argument grounded to."""
 
     part: str = Field(description="JSON pointer of the task within the query; empty where it is not composed.")
     argument: int = Field(description="Position of the argument in its task, from 1.")
     phrase: str
-    name: str = Field(description="The object or attribute value.")
+    quantifier: Literal["one", "any", "all"] = Field(
+        description="`one`: the phrase names one thing. `any`: one of `things` is meant, whichever (`any red toy`). "
+        "`all`: each of them is (`every box`)."
+    )
+    name: str = Field(description="The object or attribute value; the first of `things` where they are several.")
     kind: str = Field(description="Its class or attribute type.")
     reason: str = Field(description="Why the phrase names it.")
+    things: list[ThingOut] = Field(description="All that is meant.")
 
 
 class ErrorPlace(BaseModel):

@@ -18,25 +18,41 @@ from service.http.schemas.common import (
     QueryText,
     QuestionOut,
     Request,
+    State,
     TranslatorName,
 )
 
+_STATE = (
+    "How things stand, for phrases that go by it (`the toy in the box`); what is left out is as in the initial state."
+)
 
-class TranslateRequest(Request):
+
+class _InEnvironment(Request):
+    """Needs an environment where a state is given."""
+
+    environment: EnvironmentName | None = Field(None, description="Where to ground; without it `ltl` is null.")
+    state: State | None = Field(None, description=_STATE)
+
+    @model_validator(mode="after")
+    def _state_of_what(self) -> Self:
+        if self.state is not None and self.environment is None:
+            raise ValueError("state is that of an environment: give environment too")
+        return self
+
+
+class TranslateRequest(_InEnvironment):
     """A command to translate."""
 
     text: Command
-    environment: EnvironmentName | None = Field(None, description="Where to ground; without it `ltl` is null.")
     translator: TranslatorName = "default"
     candidates: int = Field(1, ge=1, le=10, description="How many readings to return at most.")
     answers: Answers = Field(default_factory=list, max_length=16)
 
 
-class BatchRequest(Request):
+class BatchRequest(_InEnvironment):
     """Commands to translate."""
 
     texts: list[Command] = Field(min_length=1, max_length=100)
-    environment: EnvironmentName | None = None
     translator: TranslatorName = "default"
     candidates: int = Field(1, ge=1, le=10)
 
@@ -172,6 +188,7 @@ class GroundRequest(Request):
     contextual_query: QueryText | None = None
     query: ContextualQueryTree | None = None
     environment: EnvironmentName
+    state: State | None = Field(None, description=_STATE)
 
     @model_validator(mode="after")
     def _exactly_one(self) -> Self:

@@ -37,6 +37,8 @@ COMMANDS = {
     "Approach the zorb": "move_to(zorb)",  # a word that no vocabulary holds
     "Ship the zorb to the blarg in the flonk": "ship(zorb, flonk, blarg)",
     "Go to the O'Hare, then go to the town hall": "navigate_two(o'hare, town hall)",
+    "Move close to any toy": "move_to(any toy)",  # a quantifier is a part of what it is said of
+    "Go to one of the rooms": "navigate_one(one of the rooms)",
     "Navigate to the quarry by way of the university and then the clinic": "navigate_three(university, clinic, quarry)",
 }
 
