@@ -17,7 +17,7 @@ from models.language.composition.shapes import ONE_CLAUSE, SINGLE
 from models.language.dataset import frames, no_task
 from models.language.dataset.composition import Form, Hole, Leaf, Pattern, leaves, patterns, slot_elements
 from models.language.spans.items import Item
-from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, Lessons, misspelled
+from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, REFERRED, Lessons, misspelled
 from models.language.spans.tags import Span
 from models.language.spans.training import Settings
 from models.language.tokens import marked_words
@@ -134,8 +134,12 @@ class CompositionLessons:
         return said
 
     def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
-        determiner = "" if bare else generator.choice(DETERMINERS)
-        return [*([determiner] if determiner else []), *self.single.names.draw(CLAUSE_SLOTS[slot], generator)]
+        kind = CLAUSE_SLOTS[slot]
+        name, article = self.single.names.draw(kind, generator), not bare
+        if article and slot != "color" and generator.random() < REFERRED:
+            name, article = self.single.refer(name, kind, False, generator)
+        determiner = generator.choice(DETERMINERS) if article else ""
+        return [*([determiner] if determiner else []), *name]
 
     def _framed(self, item: Item, form: Form, generator: random.Random) -> Item:
         if generator.random() > FRAMED:

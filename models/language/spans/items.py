@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 
 import torch
@@ -13,6 +13,7 @@ from models.language.dataset import Example
 from models.language.encoder import Encoder
 from models.language.spans.network import SpanConfig, SpanNet, TextBatch, log_likelihood
 from models.language.spans.tags import Span, tags_of
+from models.language.teaching.utterance import DETERMINERS
 from models.language.tokens import words
 
 
@@ -57,8 +58,10 @@ class Item:
         hide_frame = generator.random() < frame_rate
         return [(hide_frame and place not in inside) or generator.random() < rate for place in range(len(self.text))]
 
-    def renamed(self, phrases: Sequence[Sequence[str]]) -> Item:
-        """The same command of other things: argument `i` is named by `phrases[i]`."""
+    def renamed(self, phrases: Sequence[Sequence[str]], *, alone: Set[int] = frozenset()) -> Item:
+        """The same command of other things: argument `i` is named by `phrases[i]`; those that stand `alone` have no
+        determiner in front.
+        """
         begins = {begin: (end, argument) for argument, spans in enumerate(self.mentions) for begin, end in spans}
         text: list[str] = []
         mentions: list[list[Span]] = [[] for _ in self.mentions]
@@ -66,6 +69,8 @@ class Item:
         while place < len(self.text):
             if place in begins:
                 end, argument = begins[place]
+                if argument in alone and text and text[-1] in DETERMINERS:
+                    text.pop()
                 mentions[argument].append((len(text), len(text) + len(phrases[argument])))
                 text += phrases[argument]
                 place = end

@@ -30,7 +30,8 @@ from models.language.dataset import (
 )
 from models.language.dataset.composition import Leaf, leaves, slot_elements
 from models.language.spans.items import Item
-from models.language.spans.names import Names, names
+from models.language.spans.names import Names, Phrase, names
+from models.language.spans.references import PLACES, refer
 from models.language.spans.tags import Span
 from models.language.tokens import words
 from models.language.translation import NEGATIONS
@@ -54,6 +55,8 @@ PRONOUN = 0.1
 PRONOUNS = {"place": ("there", "there", "it"), "object": ("it", "it", "it", "them", "one")}
 DETERMINERS = ("the",) * 12 + ("my", "a", "that", "", "", "")
 """What stands before a name in a clause."""
+REFERRED = 0.12
+"""Part of the drawn names that are put into a phrase: "any red toy", "the cup in the kitchen"."""
 RENAMED = 0.7
 """Part of T's commands that are drawn with other things in them."""
 FRAMED = 0.4
@@ -139,7 +142,20 @@ class Lessons:
         assert item.task is not None
         apart = not any(end == begin for _, end in item.mentions[-1] for begin, _ in item.mentions[0])
         slots = self.classes[item.task][1]
-        return item.renamed([self.names.draw(slot, generator, apart=apart) for slot in slots])
+        phrases = [self.names.draw(slot, generator, apart=apart) for slot in slots]
+        if "color" in slots or generator.random() > REFERRED:
+            return item.renamed(phrases)
+        place = generator.randrange(len(slots))
+        phrases[place], article = self.refer(phrases[place], slots[place], len(slots) > 1, generator)
+        return item.renamed(phrases, alone=frozenset() if article else frozenset({place}))
+
+    def refer(self, name: Phrase, slot: str, more: bool, generator: random.Random) -> tuple[Phrase, bool]:
+        """A phrase that refers to what has a name by more than it, and whether a determiner may stand in front.
+
+        Where `more` is said than one thing, where it is might be where it is to go.
+        """
+        kind = "place" if slot in PLACES else "target" if more else "thing"
+        return refer(name, kind, self.names, generator)
 
     def other_job(self, generator: random.Random) -> Item:
         """A clause that is none of the task classes."""
@@ -163,10 +179,12 @@ class Lessons:
                 mentions[slot] = (len(text), len(text) + 1)
                 text.append(generator.choice(pronoun))
                 continue
-            if previous != "color":
-                text += [word for word in (generator.choice(DETERMINERS),) if word]
             kind = generator.choice(["object", "container"]) if task == "move_to" else CLAUSE_SLOTS[slot]
-            name = self.names.draw(kind, generator)
+            name, article = self.names.draw(kind, generator), previous != "color"
+            if slot != "color" and "color" not in leaf.slots and generator.random() < REFERRED:
+                name, article = self.refer(name, kind, len(leaf.slots) > 1, generator)
+            if article:
+                text += [word for word in (generator.choice(DETERMINERS),) if word]
             mentions[slot] = (len(text), len(text) + len(name))
             text += name
             previous = slot
@@ -183,6 +201,9 @@ class Lessons:
         """A place alone, to be gone to: "the bakery, please"."""
         name = self.names.draw("location", generator)
         before = generator.choice([(), (), ("the",), ("the",), ("to", "the"), ("off", "to", "the")])
+        if generator.random() < REFERRED:
+            name, article = self.refer(name, "location", False, generator)
+            before = before if article else before[:-1]
         after = generator.choice([(), (), (), ("please",), ("now",), ("quick",)])
         text = (*before, *name, *after)
         return Item(text, "navigate_one", (((len(before), len(before) + len(name)),),))
