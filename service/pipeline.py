@@ -26,7 +26,7 @@ from service.questions import Answer, Question, answered, question_of
 from service.services import LoadedEnvironment, Services
 from service.store import StoredPolicy
 from service.taught import read_template
-from service.understanding import Meaning, Understanding, understand
+from service.understanding import Meaning, Understanding, nearest_tasks, understand
 from service.worker import Device, Objective, PlanAnswer, PlanJob, run_plan
 
 RIVALS = 3
@@ -41,6 +41,7 @@ class Translated:
     readings: tuple[Understanding, ...]
     environment: Environment | None
     question: Question | None
+    nearest: tuple[str, ...] = ()  # known tasks, where none fits
 
     @property
     def outcome(self) -> Literal["translated", "ambiguous", "unknown"]:
@@ -106,6 +107,9 @@ def translate(
     taught = services.known()
     with at(pointer):
         found = understand(services, taught, text, world, translator=translator, candidates=max(candidates, RIVALS))
+        if not found:
+            nearest = nearest_tasks(services, taught, text, world, translator=translator)
+            return Translated(text, (), world, None, nearest)
     with at("", only={"wrong-answer"}):
         left = answered(text, found, answers, taught, world)
     return Translated(text, left[:candidates], world, question_of(left, taught, world))
@@ -198,7 +202,9 @@ def _meaning_of(services: Services, order: PlanOrder, environment: Environment) 
         found = understand(services, taught, text, environment, translator=order.translator, candidates=RIVALS)
     if not found:
         with at("/text"):
-            raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; GET /templates lists the known tasks')
+            near = nearest_tasks(services, taught, text, environment, translator=order.translator)
+            hint = f"the nearest known tasks are {', '.join(near)}" if near else "GET /templates lists the known tasks"
+            raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; {hint}')
     with at("", only={"wrong-answer"}):
         left = answered(text, found, order.answers, taught, environment)
     best, question = left[0], question_of(left, taught, environment)

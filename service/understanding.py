@@ -21,6 +21,9 @@ from service.store import StoredTemplate
 from service.taught import Taught
 from service.translators import DEFAULT
 
+NEAREST = 3
+"""Known tasks that are named where none fits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
@@ -93,6 +96,15 @@ def understand(
     hearing = Hearing(chosen, lessons, taught.template)
     readings = hearing.readings(text, environment, candidates=candidates)
     return tuple(of_reading(reading, taught.stored) for reading in readings)
+
+
+def nearest_tasks(
+    services: Services, taught: Taught, text: str, environment: Environment | None, *, translator: str
+) -> tuple[str, ...]:
+    """The known tasks that are nearest to a command that none of them fits; none by the translators of the paper."""
+    if translator != DEFAULT:
+        return ()
+    return services.lessons(taught).nearest(text, count=NEAREST, environment=environment)
 
 
 def of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:

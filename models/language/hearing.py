@@ -52,6 +52,13 @@ class Lessons:
         found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits)
         return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
 
+    def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
+        """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""
+        found = self.matcher.nearest(text, self.shelf, count=len(self.shelf.tasks))
+        there = None if environment is None else frozenset(environment.functions)
+        fitting = [task for task, _ in found if there is None or self.functions[task] <= there]
+        return tuple(fitting[:count])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hearing:
@@ -89,13 +96,14 @@ class Hearing:
 
 def weighed(near: Sequence[Translation], heard: Sequence[Translation]) -> tuple[Translation, ...]:
     """The readings of two sources together: the odds of each are lowered by how sure the other is."""
-    first, second = (min(SURE, sum(t.confidence for t in found)) for found in (near, heard))
     if not near or not heard:
         return (*near, *heard)
+    sums = [sum(translation.confidence for translation in source) for source in (near, heard)]
+    first, second = (min(SURE, total) for total in sums)
     one, other = first * (1.0 - second), second * (1.0 - first)
     scale = (first + second - first * second) / (one + other)  # of one of them being right at all
     found: dict[object, Translation] = {}
-    for source, share, total in ((near, one * scale, first), (heard, other * scale, second)):
+    for source, share, total in ((near, one * scale, sums[0]), (heard, other * scale, sums[1])):
         for translation in source:
             part = translation.confidence / total * share
             known = found.get(translation.query)

@@ -132,6 +132,7 @@ def translated_out(translated: Translated) -> TranslateResponse:
         bindings=best.bindings if best else [],
         candidates=candidates,
         question=None if translated.question is None else QuestionOut.of(translated.question),
+        nearest=list(translated.nearest),
         warnings=best.warnings if best else [],
         issues=best.issues if best else [],
     )

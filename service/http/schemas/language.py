@@ -87,6 +87,7 @@ class TranslateResponse(BaseModel):
     bindings: list[BindingOut]
     candidates: list[CandidateOut]
     question: QuestionOut | None
+    nearest: list[str] = Field(description="Where no task fits: the known tasks that come nearest.")
     warnings: list[str]
     issues: list[ErrorPlace]
 
