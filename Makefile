@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz check format openapi train evaluate bench bench-language bench-planning clean
+.PHONY: serve test fuzz check format openapi train evaluate bench bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -42,6 +42,9 @@ bench: $(VENV)/.dev
 
 bench-language: $(VENV)/.dev  # commands in people's own words
 	$(BIN)/python -m benchmarks.language
+
+bench-teaching: $(VENV)/.dev  # tasks taught with one example, and with five
+	$(BIN)/python -m benchmarks.teaching
 
 bench-planning: $(VENV)/.dev  # against other planners; about half an hour
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'

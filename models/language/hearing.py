@@ -16,7 +16,7 @@ from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, ran
 from models.language.teaching import TaughtTranslator
 from models.language.translation import BEAM_WIDTH, Translation, Translator
 from models.queries import Template
-from models.world import Environment
+from models.world import Environment, mentions
 
 MATCHED = 12
 """Readings by nearness that are looked at: the environment may make sense of a later one only."""
@@ -49,7 +49,10 @@ class Lessons:
         def fits(task: str) -> bool:
             return there is None or self.functions[task] <= there
 
-        found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits)
+        def named(said: tuple[str, ...]) -> Sequence[tuple[int, int]]:
+            return () if environment is None else mentions(said, environment)
+
+        found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits, named=named)
         return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from models.world.factors import Factored, FactoredAction, Range
 from models.world.grounding import Grounding, PartOfSpeech, ground, speaks_of_others
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
+from models.world.mentions import mentions
 from models.world.oomdp import OomdpWorld
 from models.world.outline import Part, outline
 from models.world.quantifiers import Quantifier, widened, with_values
@@ -69,6 +70,7 @@ __all__ = [
     "explain",
     "ground",
     "load_environment",
+    "mentions",
     "navigation_spec",
     "outline",
     "reachable_part",

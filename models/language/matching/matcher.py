@@ -35,6 +35,14 @@ MOST_MENTIONS = 5
 """Texts with more mentions are not matched with their parts: the orders would be too many."""
 
 
+NAMED = 0.75
+"""Probability that a command is about all that it names in the environment, and nothing else."""
+
+
+def _nothing_named(_said: tuple[str, ...]) -> Sequence[Span]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Known:
     """What was read in an example or a card: vectors of the command, [V], and of the arguments' roles, [A, R]."""
@@ -124,16 +132,29 @@ class Matcher:
         return command, network.roles(vectors, firsts).numpy()
 
     def match(
-        self, text: str, shelf: Shelf, *, candidates: int, fits: Callable[[str], bool] = bool
+        self,
+        text: str,
+        shelf: Shelf,
+        *,
+        candidates: int,
+        fits: Callable[[str], bool] = bool,
+        named: Callable[[tuple[str, ...]], Sequence[Span]] = _nothing_named,
     ) -> tuple[Translation, ...]:
-        """The queries of tasks on the shelf that a text may say, likeliest first, with their probabilities; tasks that
-        do not fit are passed over. Raises TextTooLongError.
+        """The queries of tasks on the shelf that a text may say, likeliest first, with their probabilities.
+
+        Args:
+            fits: tasks that do not are passed over.
+            named: the ranges of folded words that are known to name things, left to right; a command is likely to be
+                about all of them and nothing else.
+
+        Raises:
+            TextTooLongError: the text is beyond the limits of a command.
         """
         said = words(text)
         if not said or not shelf.tasks:
             return ()
         found: dict[ContextualQuery, float] = {}
-        for task, mentions, likely in self._tasks(said, shelf, fits):
+        for task, mentions, likely in self._tasks(said, shelf, fits, named(said)):
             for order, part in task.orders(mentions):
                 phrases = tuple(" ".join(plain(said[slice(*mentions.spans[place])])) for place in order)
                 query = ContextualQuery(task.task.task, phrases)
@@ -152,10 +173,10 @@ class Matcher:
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, said: tuple[str, ...], shelf: Shelf, fits: Callable[[str], bool]
+        self, said: tuple[str, ...], shelf: Shelf, fits: Callable[[str], bool], named: Sequence[Span]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together."""
-        seen = self._seen(said)
+        seen = self._seen(said, named)
         examples, cards = shelf.nearness(np.stack([way.command for way in seen]))
         points = self.model.points(examples, cards)  # [M, K]
         arities = np.array([task.arity for task in shelf.tasks])
@@ -170,18 +191,19 @@ class Matcher:
                     yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
 
     @torch.inference_mode()
-    def _seen(self, said: tuple[str, ...]) -> list[_Seen]:
-        """The likeliest ways to see what a text mentions."""
+    def _seen(self, said: tuple[str, ...], named: Sequence[Span] = ()) -> list[_Seen]:
+        """The likeliest ways to see what a text mentions; what is named in it is one."""
         network = self.model.network
         vectors = self.encoder.read([said], layers=MEANING)[0]  # [S, D]
         emissions = network.tags(vectors[None])[0].double().numpy()
         moves = (network.transition + network.allowed).double().numpy()
         start = network.allowed_start.double().numpy()
         total = log_total(emissions, moves, start)
-        ways: dict[tuple[Span, ...], float] = {}
+        ways: dict[tuple[Span, ...], float] = {_distinct(said, named): NAMED} if named else {}
+        share = 1.0 - sum(ways.values())
         for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES):
-            spans = _spans(said, tags)
-            ways[spans] = ways.get(spans, 0.0) + math.exp(min(0.0, points - total))
+            spans = _distinct(said, _spans(tags))
+            ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
         free = torch.tensor([_free(len(said), spans) for spans in ways])
         commands = network.commands(vectors.expand(len(ways), -1, -1), free).numpy()
         return [
@@ -230,14 +252,19 @@ class _Candidate:
         yield from ((order, odd / sum(odds)) for order, odd in zip(orders, odds, strict=True))
 
 
-def _spans(said: Sequence[str], tags: Sequence[int]) -> tuple[Span, ...]:
-    """The mentions that tags say, left to right; what is named twice in the same words counts once."""
+def _spans(tags: Sequence[int]) -> list[Span]:
+    """The mentions that tags say, left to right."""
     spans: list[Span] = []
     for place, tag in enumerate(tags):
         if tag == ON and spans:
             spans[-1] = (spans[-1][0], place + 1)
         elif tag != OUTSIDE:
             spans.append((place, place + 1))
+    return spans
+
+
+def _distinct(said: Sequence[str], spans: Iterable[Span]) -> tuple[Span, ...]:
+    """What is mentioned twice in the same words counts once."""
     first: dict[tuple[str, ...], Span] = {}
     for span in spans:
         first.setdefault(tuple(said[slice(*span)]), span)
