@@ -17,8 +17,8 @@ from models.queries.errors import ExplanationError
 from models.queries.evaluation import GroundedQuery, Path
 from models.queries.template import Binding
 from models.world import Environment
-from models.world.explanation import Speaker, cut
-from models.world.phrases import Level, Said, joined, joins, readable
+from models.world.explanation import Speaker
+from models.world.phrases import Level, Said, cut, joined, joins, readable
 from models.world.sequences import eventuality, steps_of
 from models.world.wording import fill, needs_article, spoken_symbol, without_article
 

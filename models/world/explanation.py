@@ -12,16 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Sequence
 from dataclasses import replace
+from typing import TypeGuard
 
 from models.logic import Atom, Binary, Constant, Formula, Nary, Op, Unary, atoms
 from models.world.environment import Environment
-from models.world.phrases import Level, Said, joined
-from models.world.sequences import Step, complement, steps_of, strictly_ordered
+from models.world.phrases import Level, Said, cut, joined
+from models.world.sequences import Step, awaits_next, steps_of, strictly_ordered, weak_until
 from models.world.wording import word_atoms
-
-MAX_READING = 10_000
-"""Most characters of a reading; a longer one is cut after a word, and ends with CUT."""
-CUT = " [...]"
 
 _Wanted = tuple[Formula, bool]  # a formula, and whether its negation is to be read
 _Reading = Generator[_Wanted, Said, Said]
@@ -32,11 +29,6 @@ def explain(formula: Formula, environment: Environment | None = None) -> str:
     as they are written.
     """
     return cut(Speaker(atoms(formula), environment).say(formula).text)
-
-
-def cut(text: str, most: int = MAX_READING) -> str:
-    """The text, cut after a word if it is too long."""
-    return text if len(text) <= most else text[: most - len(CUT)].rpartition(" ")[0] + CUT
 
 
 class Speaker:
@@ -91,9 +83,8 @@ class Speaker:
         while isinstance(formula, Unary) and formula.op is Op.NEXT:
             formula, count = formula.operand, count + 1
         when = "in the next step" if count == 1 else f"in {count} steps"
-        inner, negated = _positive(formula, denied)
-        if count == 1 and isinstance(inner, Unary) and (inner.op is Op.GLOBALLY) is not negated:
-            kept = yield inner, negated
+        if count == 1 and _lasts(formula, denied):
+            kept = yield formula, denied
             return Said(f"from the next step on {kept.within(Level.PREFIX)}", Level.PREFIX)
         return (yield from self._behind(when, formula, denied))
 
@@ -104,11 +95,9 @@ class Speaker:
 
     def _eventually(self, operand: Formula, denied: bool) -> _Reading:
         """`F operand`, or `F !operand`."""
-        operand, denied = _positive(operand, denied)
-        if isinstance(operand, Unary) and operand.op in (Op.FINALLY, Op.GLOBALLY):
-            if (operand.op is Op.FINALLY) is not denied:
-                return (yield from self._eventually(operand.operand, denied))
-            kept = yield from self._always(operand.operand, denied)
+        operand, denied = _within(operand, denied, Op.FINALLY)
+        if _is_unary(operand, Op.FINALLY, Op.GLOBALLY):
+            kept = yield operand, denied
             comma = "," if kept.level is Level.PHRASE else ""
             return Said(f"from some time on{comma} {kept.text}", kept.level)
         if denied:
@@ -117,15 +106,13 @@ class Speaker:
 
     def _always(self, operand: Formula, denied: bool) -> _Reading:
         """`G operand`, or `G !operand`."""
-        operand, denied = _positive(operand, denied)
+        operand, denied = _within(operand, denied, Op.GLOBALLY)
         match operand:
             case Atom():
                 return self._words[operand].never if denied else self._words[operand].always
-            case Unary(op=Op.FINALLY | Op.GLOBALLY as op, operand=inner):
-                if (op is Op.GLOBALLY) is not denied:
-                    return (yield from self._always(inner, denied))
-                inner, denied = _positive(inner, denied)
-                if denied or _is_lasting(inner):
+            case Unary(op=Op.FINALLY | Op.GLOBALLY, operand=inner):
+                inner, denied = _within(inner, denied, Op.FINALLY)
+                if denied or _is_unary(inner, Op.GLOBALLY):
                     return (yield from self._behind("again and again", inner, denied))
                 return (yield from self._sequence("again and again", None, steps_of(inner)))
             case Binary(op=Op.IMPLIES, left=left, right=right) if not denied:
@@ -137,7 +124,7 @@ class Speaker:
                         items.append((yield one, False))
                     return Said(f"never {joined('and', items).within(Level.PREFIX)}", Level.PREFIX)
                 if len(operands) == 2:
-                    (other,) = (one for one in operands if not _is_denial(one))
+                    (other,) = (one for one in operands if not _is_unary(one, Op.NOT))
                     return (yield from self._whenever(ruled_out[0], other))
                 return (yield from self._behind("always", operand, denied))
             case Nary() | Binary() if denied and operand.op not in (Op.IMPLIES, Op.IFF):
@@ -153,7 +140,7 @@ class Speaker:
     def _sequence(self, head: str, guard: Formula | None, steps: Sequence[Step]) -> _Reading:
         """Steps one after the other, the first behind `head`; `guard` has to hold until then."""
         throughout = guard is not None and len(steps) > 1 and all(step.guard == guard for step in steps[1:])
-        strict = not throughout and len(steps) > 1 and _awaits(guard, steps)
+        strict = not throughout and len(steps) > 1 and awaits_next(guard, steps)
         said: list[str] = []
         for place, step in enumerate(steps):
             now = yield from self._together(step, steps[place - 1] if place else None)
@@ -209,7 +196,7 @@ class Speaker:
             return (yield from self._deny(formula))
         if formula.op is Op.AND:
             return (yield from self._all(formula.operands))
-        weak = None if denied else _weak_until(formula.operands)
+        weak = None if denied else weak_until(formula.operands)
         if weak is not None:
             return (yield from self._weak_until(*weak))
         items = []
@@ -276,37 +263,26 @@ class Speaker:
         return Said(f"{one.within(Level.CLAUSE)} until {other.within(Level.PREFIX)}, if ever", Level.PHRASE)
 
 
-def _positive(formula: Formula, denied: bool) -> _Wanted:
-    """Without negations around it."""
-    while isinstance(formula, Unary) and formula.op is Op.NOT:
-        formula, denied = formula.operand, not denied
+def _within(formula: Formula, denied: bool, op: Op) -> _Wanted:
+    """What is left behind `op`, `F` or `G`, when further ones that add nothing to it, and negations, are taken off."""
+    dual = Op.GLOBALLY if op is Op.FINALLY else Op.FINALLY
+    while _is_unary(formula, Op.NOT, dual if denied else op):
+        denied = denied is not (formula.op is Op.NOT)
+        formula = formula.operand
     return formula, denied
 
 
-def _is_denial(formula: Formula) -> bool:
-    return isinstance(formula, Unary) and formula.op is Op.NOT
+def _lasts(formula: Formula, denied: bool) -> bool:
+    """Whether it is `G a`, or the negation of `F a`."""
+    while isinstance(formula, Unary) and formula.op is Op.NOT:
+        formula, denied = formula.operand, not denied
+    return _is_unary(formula, Op.FINALLY if denied else Op.GLOBALLY)
+
+
+def _is_unary(formula: Formula, *ops: Op) -> TypeGuard[Unary]:
+    return isinstance(formula, Unary) and formula.op in ops
 
 
 def _denied_of(operands: Sequence[Formula]) -> list[Formula]:
     """What the operands that are negations deny."""
     return [one.operand for one in operands if isinstance(one, Unary) and one.op is Op.NOT]
-
-
-def _is_lasting(formula: Formula) -> bool:
-    return isinstance(formula, Unary) and formula.op is Op.GLOBALLY
-
-
-def _awaits(guard: Formula | None, steps: Sequence[Step]) -> bool:
-    """Whether the guard of the first step is that the second does not hold yet: `!b U (a & F b)`."""
-    late = None if guard is None else complement(guard)
-    return late is not None and steps[1].kind == "then" and steps[1].only_part == late
-
-
-def _weak_until(operands: Sequence[Formula]) -> tuple[Formula, Formula] | None:
-    """`(a U b) | G a`, in either order, as (a, b)."""
-    if len(operands) != 2:
-        return None
-    for one, other in (operands, operands[::-1]):
-        if isinstance(one, Binary) and one.op is Op.UNTIL and other == Unary(Op.GLOBALLY, one.left):
-            return one.left, one.right
-    return None

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from models.logic import Atom, Constant, Formula, Unary, atoms, children
 from models.world.environment import Environment
-from models.world.explanation import Speaker, cut
+from models.world.explanation import Speaker
+from models.world.phrases import cut
 
 MAX_PARTS = 100
 """Most parts of an outline, those of the outer levels first."""

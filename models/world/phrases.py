@@ -38,6 +38,16 @@ class Said:
         return f"({self.text})"
 
 
+MAX_READING = 10_000
+"""Most characters of a reading; a longer one is cut after a word, and ends with CUT."""
+CUT = " [...]"
+
+
+def cut(text: str, most: int = MAX_READING) -> str:
+    """The text, cut after a word if it is too long."""
+    return text if len(text) <= most else text[: most - len(CUT)].rpartition(" ")[0] + CUT
+
+
 def joined(word: str, items: Sequence[Said]) -> Said:
     """Readings as a list with "and" or "or": the more there is in one of them, the stronger what separates them."""
     if len(items) == 1:

@@ -1,4 +1,4 @@
-"""What comes after what in a formula: the steps of `a & F (b & X F c)`, and strict orders."""
+"""Shapes of formulas that people have words for: the steps of `a & F (b & X F c)`, strict orders, weak until."""
 
 from __future__ import annotations
 
@@ -102,6 +102,22 @@ def _before(operands: Sequence[Formula]) -> dict[Formula, tuple[int, Formula]]:
             if late is not None and early is not None:
                 found.setdefault(late, (place, early))
     return found
+
+
+def awaits_next(guard: Formula | None, steps: Sequence[Step]) -> bool:
+    """Whether the guard of the first step is that the second does not hold yet: `!b U (a & F b)`."""
+    late = None if guard is None else complement(guard)
+    return late is not None and steps[1].kind == "then" and steps[1].only_part == late
+
+
+def weak_until(operands: Sequence[Formula]) -> tuple[Formula, Formula] | None:
+    """`(a U b) | G a`, in either order, as (a, b)."""
+    if len(operands) != 2:
+        return None
+    for one, other in (operands, operands[::-1]):
+        if isinstance(one, Binary) and one.op is Op.UNTIL and other == Unary(Op.GLOBALLY, one.left):
+            return one.left, one.right
+    return None
 
 
 def complement(formula: Formula) -> Formula | None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import models
 import service
 from models.errors import CqltlError
+from models.logic import PropertyClass, classify, parse
 from service.http.problems import STATUS
 from service.settings import Settings
 
@@ -33,6 +34,19 @@ def test_every_slug_has_a_status_and_is_documented() -> None:
     documented = {slug: int(status) for slug, status in rows}
     assert documented == STATUS
     assert slugs(CqltlError) - INTERNAL <= set(STATUS)
+
+
+def test_every_kind_of_task_is_documented_with_formulas_of_it() -> None:
+    text = (DOCS / "http.md").read_text(encoding="utf-8").partition("| `kind` | in plain words")[2]
+    rows = re.findall(r"^\| (`[a-z`, ]+`) \| (.*?) \| (`.*`) \|$", text, re.MULTILINE)
+    known = []
+    for names, plain, formulas in rows:
+        kinds = [PropertyClass(name) for name in re.findall("`([a-z]+)`", names)]
+        found = [classify(parse(formula.replace("\\|", "|"))) for formula in re.findall("`(.*?)`", formulas)]
+        assert plain == "; ".join(kind.plain for kind in kinds)
+        assert list(dict.fromkeys(found)) == kinds
+        known += kinds
+    assert sorted(known) == sorted(PropertyClass)
 
 
 def test_every_setting_is_documented_with_its_default() -> None:

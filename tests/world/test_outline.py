@@ -8,8 +8,8 @@ from hypothesis import given
 
 from models.logic import Atom, Binary, Nary, Op, children, conjunction, disjunction, parse, walk
 from models.world import Part, explain, load_environment, outline, toys_spec
-from models.world.explanation import CUT
 from models.world.outline import MAX_PART_DEPTH, MAX_PART_READING, MAX_PARTS
+from models.world.phrases import CUT
 from tests.logic.strategies import formulas, plain_atoms
 
 

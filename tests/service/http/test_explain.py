@@ -140,8 +140,8 @@ def test_without_an_environment_phrases_stand_in_the_template(client: httpx.Clie
 
 
 def test_another_template_does_not_keep_the_words(client: httpx.Client) -> None:
-    teach(client, "fetch_back", explanation="the {1} gets into the {2}")
-    replaced = teach(client, "fetch_back", ltl="G !in(sphere, box)", replace=True).json()
+    teach(client, "settle_in", explanation="the {1} gets into the {2}")
+    replaced = teach(client, "settle_in", ltl="G !in(sphere, box)", replace=True).json()
     assert replaced["explanation"] == replaced["reading"] == "{1} is never in {2}"
 
 
