@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
 from pydantic import BaseModel, ValidationError
 from safetensors import SafetensorError
 from safetensors.torch import save as save_tensors
-from torch import nn
+from torch import Tensor, nn
 
 from models.language.errors import WeightsError
 
 
-def write_model(network: nn.Module, description: BaseModel, folder: Path, name: str) -> None:
+def write_model(network: nn.Module | Mapping[str, Tensor], description: BaseModel, folder: Path, name: str) -> None:
     """Write both files, replacing what is there; the same model gives the same bytes."""
-    tensors = {key: tensor.contiguous() for key, tensor in sorted(network.state_dict().items())}
+    held = network.state_dict() if isinstance(network, nn.Module) else network
+    tensors = {key: tensor.contiguous() for key, tensor in sorted(held.items())}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}.safetensors").write_bytes(save_tensors(tensors))
     text = json.dumps(description.model_dump(mode="json"), indent=1, ensure_ascii=False)

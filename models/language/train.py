@@ -27,7 +27,7 @@ from models.language.composition import NAME
 from models.language.composition.lessons import SETTINGS, CompositionLessons
 from models.language.dataset import Domain, no_task
 from models.language.dataset.tasks import task_classes
-from models.language.encoder import MEANING, encoder
+from models.language.encoder import encoder
 from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
@@ -82,7 +82,7 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
         [without_task(text) for text in generator.sample(sorted(part), min(REFUSED, len(part))) if words(text)]
         for part in (texts.training, texts.held_out)
     )
-    course = matching.Course.of(lessons, [*refused, *unseen], encoder(), MEANING)
+    course = matching.Course.of(lessons, [*refused, *unseen], encoder())
     course = replace(course, lessons=fitted, refused=refused)
     curve: list[dict[str, float]] = []
 

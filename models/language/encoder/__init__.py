@@ -1,5 +1,6 @@
-"""What words mean where they stand: MiniLM, a small language model, read once and never trained here."""
+"""What words mean where they stand: MiniLM, a small language model, whose lower layers are never trained here."""
 
-from models.language.encoder.minilm import MEANING, Encoder, encoder
+from models.language.encoder.minilm import Encoder, Pieced, encoder
+from models.language.encoder.upper import UpperLayers, adapters, load_adapters
 
-__all__ = ["MEANING", "Encoder", "encoder"]
+__all__ = ["Encoder", "Pieced", "UpperLayers", "adapters", "encoder", "load_adapters"]

@@ -14,7 +14,9 @@ Shapes: B texts, S words, P pieces, H hidden numbers (384).
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from itertools import islice
@@ -37,8 +39,17 @@ HEADS = 12
 LAYERS = 6
 KEPT = (1, 2)
 """Layers, from 0, whose states are the vectors of words: one nearer to the words, one nearer to the meaning."""
-MEANING = (2, 5)
-"""Layers whose states say what a sentence means: the middle one and the last."""
+LOWER = 3
+"""The layers that are the same for every reader; those above may be adapted to what is read for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pieced:
+    """The P pieces of a text of S words."""
+
+    states: Tensor  # [P, H]
+    owner: Tensor  # [P] int64, the word of each; -1: none
+    count: int  # S
 
 
 class Encoder(nn.Module):
@@ -54,7 +65,7 @@ class Encoder(nn.Module):
             )
             self.kind = weights["embeddings.token_type_embeddings.weight"][0].float()
             self.norm = _norm(weights, "embeddings.LayerNorm")
-            self.layers = nn.ModuleList(_Layer(weights, f"encoder.layer.{number}") for number in range(LAYERS))
+            self.layers = nn.ModuleList(Layer(weights, f"encoder.layer.{number}") for number in range(LAYERS))
         except (KeyError, IndexError) as error:
             raise WeightsError(f"the weights of MiniLM lack {error}") from None
         self.requires_grad_(False)
@@ -82,11 +93,30 @@ class Encoder(nn.Module):
         return len(KEPT) * int(self.words.shape[1])
 
     @torch.inference_mode()
-    def read(self, texts: Sequence[Sequence[str]], *, layers: Sequence[int] = KEPT) -> Tensor:
-        """[B, S, D] the vectors of folded words: the states after some layers, side by side.
+    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """[B, S, D] the vectors of folded words; 0 beyond the end of a text, and beyond MOST_PIECES pieces."""
+        numbers, here, owner = self._numbered(texts)
+        after = self._states(numbers, here)
+        return word_means(torch.cat([after[number] for number in KEPT], dim=2), owner, max(map(len, texts)))
 
-        They are 0 beyond the end of a text, and beyond MOST_PIECES pieces.
-        """
+    @torch.no_grad()
+    def read_pieces(self, texts: Sequence[Sequence[str]]) -> list[Pieced]:
+        """Texts of folded words after the first LOWER layers; of each at most MOST_PIECES pieces."""
+        numbers, here, owner = self._numbered(texts)
+        states = self._states(numbers, here)[-1]
+        counts = here.sum(dim=1).tolist()
+        width = max(map(len, texts))
+        return [
+            Pieced(states[row, :count].clone(), owner[row, :count].where(owner[row, :count] < width, -1), len(text))
+            for row, (text, count) in enumerate(zip(texts, counts, strict=True))
+        ]
+
+    def copied_layer(self, number: int) -> Layer:
+        """A layer, from 0, that can be changed."""
+        return copy.deepcopy(self.layers[number])  # type: ignore[return-value]
+
+    def _numbered(self, texts: Sequence[Sequence[str]]) -> tuple[Tensor, Tensor, Tensor]:
+        """[B, P] each: the numbers of the pieces, which of them count, and the words they belong to (S: none)."""
         cut = [self.pieces.cut_text(text, MOST_PIECES) for text in texts]
         width, longest = max(map(len, texts)), max(len(numbers) for numbers, _ in cut)
         numbers = torch.zeros(len(texts), longest, dtype=torch.int64)
@@ -95,20 +125,24 @@ class Encoder(nn.Module):
             numbers[row, : len(found)] = torch.tensor(found)
             owner[row, 1 : len(places) + 1] = torch.tensor(places, dtype=torch.int64)
         here = torch.arange(longest) < torch.tensor([len(found) for found, _ in cut])[:, None]  # [B, P]
-        return _means(self._states(numbers, here, layers), owner, width)
+        return numbers, here, owner
 
-    def _states(self, numbers: Tensor, here: Tensor, layers: Sequence[int]) -> Tensor:
-        """[B, P, D] of the pieces with these numbers [B, P], of which those that are `here` [B, P] count."""
+    def _states(self, numbers: Tensor, here: Tensor) -> list[Tensor]:
+        """[B, P, H] after each of the first LOWER layers, of the pieces with these numbers [B, P], of which those that
+        are `here` [B, P] count.
+        """
         states = self.norm(self.words[numbers] + self.positions[: numbers.shape[1]] + self.kind)
         mask = None if len(numbers) == 1 else here[:, None, None, :]
-        kept = []
-        for layer in islice(self.layers, max(layers) + 1):
+        after = []
+        for layer in islice(self.layers, LOWER):
             states = layer(states, mask)
-            kept.append(states)
-        return torch.cat([kept[number] for number in layers], dim=2)
+            after.append(states)
+        return after
 
 
-class _Layer(nn.Module):
+class Layer(nn.Module):
+    """A layer of BERT."""
+
     def __init__(self, weights: Mapping[str, Tensor], name: str) -> None:
         super().__init__()
         self.attend = _linear(weights, *(f"{name}.attention.self.{part}" for part in ("query", "key", "value")))
@@ -133,7 +167,7 @@ def encoder() -> Encoder:
     return Encoder.load()
 
 
-def _means(states: Tensor, owner: Tensor, width: int) -> Tensor:
+def word_means(states: Tensor, owner: Tensor, width: int) -> Tensor:
     """[B, width, D] the mean of the states [B, P, D] that belong to each word; those of `width` are thrown away."""
     total = torch.zeros(len(states), width + 1, states.shape[2])
     total.scatter_add_(1, owner[:, :, None].expand_as(states), states)

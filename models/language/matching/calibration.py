@@ -110,7 +110,7 @@ def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said]
 
 @torch.inference_mode()
 def _commands(network: MatchNet, course: Course, texts: Sequence[Said]) -> NDArray[np.float32]:
-    vectors, free, _, _ = batch(texts, course)
+    vectors, free, _, _ = batch(network, texts, course)
     found: NDArray[np.float32] = network.commands(vectors, free).numpy()
     return found
 
@@ -124,7 +124,9 @@ def _role_temperature(network: MatchNet, course: Course, held_out: Sequence[Less
         if count < 2:
             continue
         for (first, *_), (second, *_) in zip(lesson.wordings, lesson.wordings[1:], strict=False):
-            one, other = (network.roles(course.vectors[t.words], t.mentions).numpy() for t in (first, second))
+            one, other = (
+                network.roles(network.words([course.read[t.words]])[0], t.mentions).numpy() for t in (first, second)
+            )
             trials.append([float((one[list(order)] * other).sum()) for order in permutations(range(count))])
 
     def likelihood(temperature: float) -> float:

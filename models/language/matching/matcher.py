@@ -16,7 +16,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from models.language.encoder import MEANING, Encoder, encoder
+from models.language.encoder import Encoder, encoder
 from models.language.matching.model import MatchModel, load_model
 from models.language.matching.network import ON, OUTSIDE
 from models.language.spans.decoding import best_sequences, log_total
@@ -116,7 +116,7 @@ class Matcher:
         if not utterances:
             return []
         with torch.inference_mode():
-            vectors = self.encoder.read([utterance.words for utterance in utterances], layers=MEANING)
+            vectors = self.model.network.words(self.encoder.read_pieces([utterance.words for utterance in utterances]))
             return [
                 Known(*self._known(vectors[row, : len(utterance.words)], utterance))
                 for row, utterance in enumerate(utterances)
@@ -194,7 +194,7 @@ class Matcher:
     def _seen(self, said: tuple[str, ...], named: Sequence[Span] = ()) -> list[_Seen]:
         """The likeliest ways to see what a text mentions; what is named in it is one."""
         network = self.model.network
-        vectors = self.encoder.read([said], layers=MEANING)[0]  # [S, D]
+        vectors = network.words(self.encoder.read_pieces([said]))[0]  # [S, D]
         emissions = network.tags(vectors[None])[0].double().numpy()
         moves = (network.transition + network.allowed).double().numpy()
         start = network.allowed_start.double().numpy()

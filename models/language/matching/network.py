@@ -1,10 +1,11 @@
 """The network that compares commands: what is asked for, apart from what it is asked of.
 
-MiniLM's vectors of the words (all six layers: what a sentence asks for is in the upper ones) are read in three ways: a
-conditional random field finds the words that name things; the mean of the other words, projected, says what is asked
-for, and is near to that of another command which asks for the same; and each mention, with the words before it, gets a
-vector of the part it plays, near to that of the mention with the same part in another command. Nothing here knows a
-task: all of them are examples to compare with, as in prototypical networks (Snell et al., NeurIPS 2017).
+MiniLM reads the words, with its upper layers adapted: what a sentence asks for is in these. Its vectors are read in
+three ways: a conditional random field finds the words that name things; the mean of the other words, projected, says
+what is asked for, and is near to that of another command which asks for the same; and each mention, with the words
+before it, gets a vector of the part it plays, near to that of the mention with the same part in another command.
+Nothing here knows a task: all of them are examples to compare with, as in prototypical networks (Snell et al., NeurIPS
+2017).
 
 Shapes: B texts, S words, D encoder, V vectors of commands, R of roles, 3 tags (outside, begin, go on).
 """
@@ -18,6 +19,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
+from models.language.encoder import UpperLayers
 from models.language.spans.crf import FORBIDDEN
 from models.language.spans.tags import Span
 
@@ -32,6 +34,7 @@ class MatchConfig:
     """The sizes of a network; `vector` is D, `command` is V, `role` is R."""
 
     vector: int
+    rank: int = 16  # of the adapters
     hidden: int = 512
     command: int = 256
     role: int = 96
@@ -47,6 +50,7 @@ class MatchNet(nn.Module):
     def __init__(self, config: MatchConfig) -> None:
         super().__init__()
         self.config = config
+        self.words = UpperLayers(config.rank, dropout=0.1)
         self.dropout = nn.Dropout(config.dropout)
         self.command = nn.Sequential(
             nn.Linear(config.vector, config.hidden),

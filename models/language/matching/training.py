@@ -9,9 +9,8 @@ from dataclasses import asdict, dataclass
 import torch
 from torch import Tensor
 from torch.nn import functional
-from torch.nn.utils.rnn import pad_sequence
 
-from models.language.encoder import Encoder
+from models.language.encoder import Encoder, Pieced
 from models.language.matching.lessons import Lesson, Said, texts_of
 from models.language.matching.network import BEGIN, ON, OUTSIDE, MatchConfig, MatchNet
 from models.language.spans.crf import log_partition, score
@@ -27,32 +26,32 @@ WORLDS = 3
 class Settings:
     """The hyper-parameters of a run."""
 
-    steps: int = 1500
-    tasks: int = 40  # compared in a step
+    steps: int = 600
+    tasks: int = 32  # compared in a step
     refused: int = 16  # texts in a step that ask for nothing
     learning_rate: float = 1e-3  # AdamW; falls to zero along a cosine
     decay: float = 1e-2
+    clip: float = 1.0
     dropout: float = 0.3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """Lessons and texts that ask for nothing, with the vectors of all their words."""
+    """Lessons and texts that ask for nothing, with what the lower layers say of all of them."""
 
     lessons: Sequence[Lesson]
     refused: Sequence[Said]
-    vectors: dict[tuple[str, ...], Tensor]  # words -> [S, D]
+    read: dict[tuple[str, ...], Pieced]
 
     @classmethod
-    def of(cls, lessons: Sequence[Lesson], refused: Sequence[Said], encoder: Encoder, layers: Sequence[int]) -> Course:
+    def of(cls, lessons: Sequence[Lesson], refused: Sequence[Said], encoder: Encoder) -> Course:
         """Read every text once."""
         said = sorted({text.words for text in [*texts_of(lessons), *refused]}, key=len)
-        vectors: dict[tuple[str, ...], Tensor] = {}
+        read: dict[tuple[str, ...], Pieced] = {}
         for start in range(0, len(said), 64):
             part = said[start : start + 64]
-            read = encoder.read(part, layers=layers).clone()
-            vectors.update((text, read[row, : len(text)].clone()) for row, text in enumerate(part))
-        return cls(lessons, refused, vectors)
+            read.update(zip(part, encoder.read_pieces(part), strict=True))
+        return cls(lessons, refused, read)
 
 
 def fit(course: Course, settings: Settings, *, seed: int, log: Callable[[dict[str, float]], None] | None) -> MatchNet:
@@ -60,17 +59,19 @@ def fit(course: Course, settings: Settings, *, seed: int, log: Callable[[dict[st
     generator = random.Random(seed)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
-        size = next(iter(course.vectors.values())).shape[1]
+        size = 2 * next(iter(course.read.values())).states.shape[1]
         network = MatchNet(MatchConfig(vector=size, dropout=settings.dropout)).train()
-        optimizer = torch.optim.AdamW(network.parameters(), settings.learning_rate, weight_decay=settings.decay)
+        fitted = [parameter for parameter in network.parameters() if parameter.requires_grad]
+        optimizer = torch.optim.AdamW(fitted, settings.learning_rate, weight_decay=settings.decay)
         schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, settings.steps)
         for step in range(1, settings.steps + 1):
             losses = _losses(network, course, settings, generator)
             optimizer.zero_grad()
             sum(losses.values(), torch.zeros(())).backward()  # type: ignore[no-untyped-call]
+            torch.nn.utils.clip_grad_norm_(fitted, settings.clip)
             optimizer.step()
             schedule.step()
-            if log is not None and step % 100 == 0:
+            if log is not None and step % 50 == 0:
                 log({"step": step, **{name: round(float(loss.detach()), 4) for name, loss in losses.items()}})
     return network.eval()
 
@@ -80,12 +81,12 @@ def _losses(network: MatchNet, course: Course, settings: Settings, generator: ra
     texts = [text for group in drawn for text in group]
     owners = torch.tensor([number for number, group in enumerate(drawn) for _ in group])
     refused = generator.choices(course.refused, k=settings.refused)
-    vectors, free, tags, lengths = batch([*texts, *refused], course)
+    vectors, free, tags, lengths = batch(network, [*texts, *refused], course)
     commands = network.commands(vectors, free)
     return {
         "commands": _contrast(commands[: len(texts)], owners, commands[len(texts) :]),
         "tags": 0.3 * _tagging(network, vectors, tags, lengths),
-        "roles": 0.3 * _role_loss(network, drawn, course),
+        "roles": 0.3 * _role_loss(network, drawn, vectors),
     }
 
 
@@ -104,9 +105,9 @@ def _draw(lessons: Sequence[Lesson], count: int, generator: random.Random) -> li
     return groups
 
 
-def batch(texts: Sequence[Said], course: Course) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+def batch(network: MatchNet, texts: Sequence[Said], course: Course) -> tuple[Tensor, Tensor, Tensor, Tensor]:
     """The vectors [B, S, D], free words [B, S], tags [B, S] and lengths [B] of texts."""
-    vectors = pad_sequence([course.vectors[text.words] for text in texts], batch_first=True)
+    vectors: Tensor = network.words([course.read[text.words] for text in texts])
     free = torch.zeros(vectors.shape[:2])
     tags = torch.full(vectors.shape[:2], OUTSIDE)
     for row, text in enumerate(texts):
@@ -139,15 +140,16 @@ def _tagging(network: MatchNet, vectors: Tensor, tags: Tensor, lengths: Tensor) 
     return (log_partition(emissions, moves, start, lengths) - said).mean()
 
 
-def _role_loss(network: MatchNet, drawn: Sequence[Sequence[Said]], course: Course) -> Tensor:
-    """Each mention is nearest to that of the same argument in another wording."""
-    losses = []
-    for first, second, *_ in drawn:
-        if len(first.mentions) > 1:
-            one, other = (network.roles(course.vectors[text.words], text.mentions) for text in (first, second))
+def _role_loss(network: MatchNet, drawn: Sequence[Sequence[Said]], vectors: Tensor) -> Tensor:
+    """Each mention is nearest to that of the same argument in another wording. `vectors` [B, S, D] are of all texts."""
+    losses, row = [], 0
+    for group in drawn:
+        if len(group[0].mentions) > 1:
+            one, other = (network.roles(vectors[row + place], group[place].mentions) for place in (0, 1))
             near = one @ other.T / ROLE_TEMPERATURE
             right = torch.arange(len(near))
             losses.append(functional.cross_entropy(near, right) + functional.cross_entropy(near.T, right))
+        row += len(group)
     return torch.stack(losses).mean() if losses else torch.zeros(())
 
 
