@@ -24,7 +24,7 @@ from typing import Any, Literal
 import torch
 import yaml
 
-from models.language import BEAM_WIDTH, ComposedTranslator, SpanTranslator, TaughtTranslator
+from models.language import BEAM_WIDTH, ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
 from models.language.reading import rank
 from models.logic import Atom, Formula, atoms, equivalent, map_atoms, parse
 from models.queries import Example, Template, learn, parse_task, resolve_grounded
@@ -76,7 +76,7 @@ class Bench:
         for said, ltl, environment in (*pairs, (*PUT_IN, "toys")):
             query = parse_task(said)
             templates[query.task] = learn([Example(query, parse(ltl))], environments[environment])
-        taught = TaughtTranslator.of((wording, parse_task(PUT_IN[0])) for wording in PUT_IN_WORDINGS)
+        taught = TaughtTranslator.of(Utterance.of(wording, parse_task(PUT_IN[0])) for wording in PUT_IN_WORDINGS)
         translator = ComposedTranslator.load(SpanTranslator.load()).knowing(taught)
         return cls(translator, templates, environments)
 

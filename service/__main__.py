@@ -1,4 +1,4 @@
-"""The command line: `cqltl serve | learn | translate | plan | export | import | openapi`."""
+"""The command line: `cqltl serve | learn | translate | explain | plan | export | import | openapi`."""
 
 from __future__ import annotations
 
@@ -48,7 +48,14 @@ def _parser() -> argparse.ArgumentParser:
     learn.add_argument("ltl")
     learn.add_argument("--environment", required=True)
     learn.add_argument("--example", dest="examples", action="append", default=[], help="an utterance of the query")
+    learn.add_argument("--explanation", help='what it is read back as: "the {1} ends up in the {2}"')
     learn.add_argument("--replace", action="store_true", help="replace another template of the task")
+
+    explain = _remote(commands.add_parser("explain", help="a formula or a contextual query in plain English"))
+    said = explain.add_mutually_exclusive_group(required=True)
+    said.add_argument("ltl", nargs="?")
+    said.add_argument("--contextual-query")
+    explain.add_argument("--environment", help="whose words to use; without it, atoms are read as written")
 
     plan = _remote(commands.add_parser("plan", help="a policy for a command, a contextual query or a formula"))
     what = plan.add_mutually_exclusive_group(required=True)

@@ -17,7 +17,7 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
-from service.http import environments, health, language, plans, policies, templates
+from service.http import environments, explanations, health, language, plans, policies, templates
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
@@ -54,7 +54,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
-    for module in (language, templates, environments, plans, policies, health):
+    for module in (language, explanations, templates, environments, plans, policies, health):
         app.include_router(module.router)
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
     return app
@@ -86,7 +86,14 @@ async def _lifespan(settings: Settings, warm: bool, _app: FastAPI) -> AsyncItera
 
 def _warm(services: Services) -> None:
     """Translate once, so that the first request does not wait for grammars to be compiled."""
-    understand(services, "pick up the sphere", load_environment(toys_spec()), translator=DEFAULT, candidates=1)
+    understand(
+        services,
+        services.known(),
+        "pick up the sphere",
+        load_environment(toys_spec()),
+        translator=DEFAULT,
+        candidates=1,
+    )
 
 
 def _load_the_rest() -> None:

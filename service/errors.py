@@ -4,12 +4,14 @@ CqltlError
 ├── NotFoundError
 │   ├── UnknownEnvironmentError
 │   ├── UnknownTemplateError
+│   ├── UnknownExampleError
 │   └── UnknownPolicyError
 ├── TemplateConflictError      another template is stored for the task
 ├── TooManyExamplesError       a template keeps no more pairs or utterances
 ├── EnvironmentExistsError     an environment of that name is stored
 ├── NotUnderstoodError         no stored task fits the command to plan
-├── AmbiguousCommandError      the command to plan fits several objects
+├── AmbiguousCommandError      the command to plan leaves a question open
+├── AnswerError                an answer is not one to the question that is asked
 ├── DrawingTooLargeError       the automaton has too many states to be drawn
 ├── OutOfTimeError             a budget of time was spent
 ├── OverloadedError            too many requests wait already
@@ -18,9 +20,12 @@ CqltlError
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from models.errors import CqltlError
+
+if TYPE_CHECKING:
+    from service.questions import Question
 
 
 class NotFoundError(CqltlError):
@@ -39,6 +44,12 @@ class UnknownTemplateError(NotFoundError):
     """No template is stored for this task."""
 
     slug = "unknown-template"
+
+
+class UnknownExampleError(NotFoundError):
+    """The task has no example with this id."""
+
+    slug = "unknown-example"
 
 
 class UnknownPolicyError(NotFoundError):
@@ -72,13 +83,20 @@ class NotUnderstoodError(CqltlError):
 
 
 class AmbiguousCommandError(CqltlError):
-    """The command to plan could mean any of the `choices`: objects, or contextual queries."""
+    """The command to plan leaves a question open."""
 
     slug = "ambiguous-command"
 
-    def __init__(self, detail: str, *, choices: Iterable[str]) -> None:
+    def __init__(self, detail: str, question: Question) -> None:
         super().__init__(detail)
-        self.choices = tuple(choices)
+        self.question = question
+        self.choices = question.choices
+
+
+class AnswerError(CqltlError):
+    """An answer is none of the choices of the question, or nothing is asked."""
+
+    slug = "wrong-answer"
 
 
 class DrawingTooLargeError(CqltlError):

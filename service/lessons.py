@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TypeVar
 
 from anyio.to_thread import run_sync
 
 from models.errors import CqltlError, Place
-from models.language import Wording
+from models.language import ExampleArgumentNotFoundError, Utterance, Wording, find_arguments, is_marked
 from models.logic import FormulaTooLargeError, parse
 from models.logic import to_text as formula_text
-from models.queries import Example, Template, learn, parse_task
+from models.queries import ContextualQuery, Example, Template, check_words, learn, parse_task
+from models.world import Environment, explain
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
@@ -28,7 +29,9 @@ MAX_EVIDENCE = 100
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """What `/learn` is given: a contextual query and grounded LTL, further such pairs, and utterances."""
+    """What `/learn` is given: a contextual query and grounded LTL, further such pairs, utterances, and the words in
+    which the task is read back, with slots for its arguments.
+    """
 
     query: str
     ltl: str
@@ -36,17 +39,20 @@ class Lesson:
     more: tuple[tuple[str, str], ...] = ()
     examples: tuple[str, ...] = ()
     replace: bool = False
+    explanation: str | None = None
 
 
-@lru_cache(maxsize=1_024)
-def read_template(stored: StoredTemplate) -> Template:
-    """The template value of a stored one."""
-    kinds, taught = (tuple(map(frozenset, group)) for group in (stored.kinds, stored.taught))
-    return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds, taught)
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """A template as it is stored now, whether its task is new, and what to know of what was learned with it."""
+
+    stored: StoredTemplate
+    created: bool
+    conflicts: tuple[str, ...]
 
 
-async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemplate, bool]:
-    """Derive the template, review it, and store it; the flag says whether the task is new.
+async def learn_template(services: Services, lesson: Lesson) -> Learned:
+    """Derive the template, review it, and store it.
 
     Learning the same again stores nothing new but pairs and utterances not seen before.
 
@@ -54,29 +60,57 @@ async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemp
         TemplateConflictError: the task has another template and `lesson.replace` is not set.
         CqltlError: whatever parsing and `models.queries.learn` raise; then nothing is stored.
     """
-    environment, template = await run_sync(_derive, services, lesson)
+    template, environment, examples = await run_sync(_derive, services, lesson)
     job = ReviewJob(template, environment.text)
     try:
         warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
     except (OutOfTimeError, FormulaTooLargeError) as error:
         warnings = (f"the template was not checked for a simpler form: {error.detail}",)
-    return await run_sync(_keep, services, lesson, template, warnings)
+    reading = explain(template.formula, environment.value)
+    return await run_sync(_keep, services, lesson, template, examples, warnings, reading)
 
 
-def _derive(services: Services, lesson: Lesson) -> tuple[LoadedEnvironment, Template]:
+def _derive(services: Services, lesson: Lesson) -> tuple[Template, LoadedEnvironment, tuple[StoredExample, ...]]:
     with at("/environment"):
         environment = services.environment(lesson.environment)
-    examples = [_read_pair(lesson.query, lesson.ltl, "")]
-    examples += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
-    for index, utterance in enumerate(lesson.examples):
-        with at(f"/examples/{index}"):
-            Wording.of(utterance, examples[0].query)
+    pairs = [_read_pair(lesson.query, lesson.ltl, "")]
+    pairs += [_read_pair(query, ltl, f"/more/{index}") for index, (query, ltl) in enumerate(lesson.more)]
+    if lesson.explanation is not None:
+        with at("/explanation"):
+            check_words(lesson.explanation, len(pairs[0].query.arguments))
     try:
-        return environment, learn(examples, environment.value)
+        template = learn(pairs, environment.value)
     except CqltlError as error:
         error.places = tuple(_in_request(place) for place in error.places) or (Place("/ltl", error.detail),)
         error.placed = True
         raise
+    return template, environment, _read_utterances(lesson.examples, pairs, template, environment.value)
+
+
+def _read_utterances(
+    texts: Sequence[str], pairs: Sequence[Example], template: Template, environment: Environment
+) -> tuple[StoredExample, ...]:
+    """The utterances with the queries that they say: one of the pairs', where its words stand in them, or else that of
+    the things that they name in the environment.
+    """
+    found = []
+    for index, text in enumerate(dict.fromkeys(texts)):
+        with at(f"/examples/{index}"):
+            utterance = _read_utterance(text, [pair.query for pair in pairs], template, environment)
+            Wording.of(utterance)
+        found.append(StoredExample(text, str(utterance.query)))
+    return tuple(found)
+
+
+def _read_utterance(
+    text: str, queries: Sequence[ContextualQuery], template: Template, environment: Environment
+) -> Utterance:
+    if is_marked(text):
+        return Utterance.of(text, queries[0])
+    for query in queries:
+        with suppress(ExampleArgumentNotFoundError):
+            return Utterance.of(text, query)
+    return Utterance.of(text, find_arguments(text, template, environment))
 
 
 def _in_request(place: Place) -> Place:
@@ -94,8 +128,13 @@ def _read_pair(query: str, ltl: str, pointer: str) -> Example:
 
 
 def _keep(
-    services: Services, lesson: Lesson, template: Template, warnings: tuple[str, ...]
-) -> tuple[StoredTemplate, bool]:
+    services: Services,
+    lesson: Lesson,
+    template: Template,
+    examples: tuple[StoredExample, ...],
+    warnings: tuple[str, ...],
+    reading: str,
+) -> Learned:
     pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
     pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
     new = StoredTemplate(
@@ -105,9 +144,11 @@ def _keep(
         kinds=tuple(tuple(sorted(kinds)) for kinds in template.kinds),
         taught=tuple(tuple(sorted(kinds)) for kinds in template.taught),
         pairs=tuple(dict.fromkeys(pairs)),
-        examples=tuple(StoredExample(text, lesson.query) for text in dict.fromkeys(lesson.examples)),
+        examples=examples,
         warnings=warnings,
         revision=1,
+        reading=reading,
+        explanation="" if lesson.explanation is None else check_words(lesson.explanation, template.arity),
     )
     with services.store.write() as transaction:
         known = transaction.templates.find(template.task)
@@ -125,24 +166,32 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
-    return kept, known is None
+    return Learned(kept, known is None, services.known().conflict_warnings(examples))
 
 
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
-    """The new template in place of the known one; how people say the task stays known if its arguments are as many."""
+    """The new template in place of the known one; how people say the task stays known if its arguments are as many.
+    What it is read back as does not: that was said of another formula.
+    """
     examples = known.examples if known.arity == new.arity else ()
     kept = _within(dict.fromkeys(examples + new.examples))
     return replace(new, examples=kept, revision=known.revision + 1)
 
 
 def _add_evidence(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:
-    """The known template with what the new lesson adds to its pairs and utterances."""
+    """The known template with what the new lesson adds to its pairs and utterances, and says of it in words."""
     pairs = _within(dict.fromkeys(known.pairs + new.pairs))
     examples = _within(dict.fromkeys(known.examples + new.examples))
     taught = _both(known.taught, new.taught)
-    if (pairs, examples, taught) == (known.pairs, known.examples, known.taught):
-        return known
-    return replace(known, pairs=pairs, examples=examples, taught=taught, revision=known.revision + 1)
+    kept = replace(
+        known,
+        pairs=pairs,
+        examples=examples,
+        taught=taught,
+        reading=known.reading or new.reading,
+        explanation=new.explanation or known.explanation,
+    )
+    return known if kept == known else replace(kept, revision=known.revision + 1)
 
 
 def _both(known: tuple[tuple[str, ...], ...], new: tuple[tuple[str, ...], ...]) -> tuple[tuple[str, ...], ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -13,7 +13,6 @@ from anyio.to_thread import run_sync
 from models.logic import Formula, parse
 from models.logic import to_text as formula_text
 from models.queries import (
-    AmbiguousGroundingError,
     Query,
     evaluate,
     evaluate_query,
@@ -22,12 +21,16 @@ from models.queries import (
 )
 from models.world import Environment, State
 from service.errors import AmbiguousCommandError, NotUnderstoodError
-from service.lessons import read_template
 from service.places import at
+from service.questions import Answer, Question, answered, question_of
 from service.services import LoadedEnvironment, Services
 from service.store import StoredPolicy
+from service.taught import read_template
 from service.understanding import Meaning, Understanding, understand
 from service.worker import Device, Objective, PlanAnswer, PlanJob, run_plan
+
+RIVALS = 3
+"""Readings that are looked at to see whether several are meant."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +40,14 @@ class Translated:
     text: str
     readings: tuple[Understanding, ...]
     environment: Environment | None
+    question: Question | None
 
     @property
     def outcome(self) -> Literal["translated", "ambiguous", "unknown"]:
-        """Whether the command is understood, could mean several objects, or fits no task."""
+        """Whether the command is understood, leaves a question open, or fits no task."""
         if not self.readings:
             return "unknown"
-        return "ambiguous" if isinstance(self.readings[0].refusal, AmbiguousGroundingError) else "translated"
+        return "translated" if self.question is None else "ambiguous"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +57,7 @@ class PlanOrder:
     """
 
     text: str | None
+    answers: tuple[Answer, ...]  # to the questions that the text left open
     query: str | Query | None
     ltl: str | None
     environment: str | None
@@ -86,16 +91,24 @@ def translate(
     state: State | None = None,
     translator: str,
     candidates: int,
+    answers: Sequence[Answer] = (),
     pointer: str = "/text",
 ) -> Translated:
     """Translate a command; with an environment, ground each reading and put it into its template.
 
-    Phrases that say how things stand go by `state`; what that leaves out is as in the initial state. `pointer` is where
-    the text stands in the request.
+    `answers` are to the questions that the command left open, in their order. Phrases that say how things stand go by
+    `state`; what that leaves out is as in the initial state. `pointer` is where the text stands in the request.
+
+    Raises:
+        AnswerError: an answer is none to the question that is asked.
     """
     world = None if environment is None else _situated(services, environment, state)
+    taught = services.known()
     with at(pointer):
-        return Translated(text, understand(services, text, world, translator=translator, candidates=candidates), world)
+        found = understand(services, taught, text, world, translator=translator, candidates=max(candidates, RIVALS))
+    with at("", only={"wrong-answer"}):
+        left = answered(text, found, answers, taught, world)
+    return Translated(text, left[:candidates], world, question_of(left, taught, world))
 
 
 def ground(
@@ -105,8 +118,8 @@ def ground(
     things stand as in `state`.
     """
     world = _situated(services, environment, state)
-    with at(_pointer(query)):
-        return world, _ground_query(services, query, world)
+    with at(query_pointer(query)):
+        return world, ground_query(services, query, world)
 
 
 async def plan(services: Services, order: PlanOrder) -> Planned:
@@ -147,7 +160,8 @@ def _in_state(environment: Environment, state: State | None) -> Environment:
         return environment if state is None else environment.in_state(state)
 
 
-def _ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
+def ground_query(services: Services, said: str | Query, environment: Environment) -> Meaning:
+    """What a contextual query, as text or in parts, means in an environment by the stored templates."""
     query = parse_query(said) if isinstance(said, str) else said
     with services.store.read() as transaction:
         stored = {task.task: transaction.templates.get(task.task) for _, task in query.tasks}
@@ -167,48 +181,46 @@ def _prepare(services: Services, order: PlanOrder) -> tuple[LoadedEnvironment, M
         with at("/environment_spec"):
             environment = LoadedEnvironment.read(order.spec)
     now = _in_state(environment.value, order.state)
+    if order.text is not None:
+        return environment, _meaning_of(services, order, now)
     with at(_source(order)):
         if order.ltl is not None:
             return environment, Meaning(resolve_grounded(parse(order.ltl), now))
-        if order.text is not None:
-            return environment, _meaning_of(services, order.text, now, order.translator)
         assert order.query is not None
-        return environment, _ground_query(services, order.query, now)
+        return environment, ground_query(services, order.query, now)
 
 
-def _meaning_of(services: Services, text: str, environment: Environment, translator: str) -> Meaning:
+def _meaning_of(services: Services, order: PlanOrder, environment: Environment) -> Meaning:
     """What a command to be planned means; a robot must not act on a guess, so doubt is refused."""
-    readings = understand(services, text, environment, translator=translator, candidates=2)
-    if not readings:
-        raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; GET /templates lists the known tasks')
-    best = readings[0]
-    if isinstance(best.refusal, AmbiguousGroundingError):
-        raise AmbiguousCommandError(best.refusal.detail, choices=best.refusal.choices)
-    if best.meaning is None:
-        assert best.refusal is not None
-        best.refusal.places = ()  # they are in a contextual query that the caller did not write
-        raise best.refusal
-    rivals = [reading for reading in readings if reading.confidence == best.confidence]
-    if len(rivals) > 1:
-        detail = f'"{text[:100]}" could mean several things; send one of them as contextual_query, or as ltl'
-        raise AmbiguousCommandError(detail, choices=map(_said, rivals))
-    return best.meaning
-
-
-def _said(reading: Understanding) -> str:
-    if reading.query is not None:
-        return str(reading.query)
-    return "" if reading.meaning is None else formula_text(reading.meaning.formula)
+    assert order.text is not None
+    taught, text = services.known(), order.text
+    with at("/text"):
+        found = understand(services, taught, text, environment, translator=order.translator, candidates=RIVALS)
+    if not found:
+        with at("/text"):
+            raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; GET /templates lists the known tasks')
+    with at("", only={"wrong-answer"}):
+        left = answered(text, found, order.answers, taught, environment)
+    best, question = left[0], question_of(left, taught, environment)
+    with at("/text"):
+        if question is not None:
+            raise AmbiguousCommandError(f'"{text[:100]}" leaves a question open: {question.text}', question)
+        if best.meaning is None:
+            assert best.refusal is not None
+            best.refusal.places = ()  # they are in a contextual query that the caller did not write
+            raise best.refusal
+        return best.meaning
 
 
 def _source(order: PlanOrder) -> str:
     """The pointer of the member that says what to do."""
     if order.text is not None:
         return "/text"
-    return "/ltl" if order.query is None else _pointer(order.query)
+    return "/ltl" if order.query is None else query_pointer(order.query)
 
 
-def _pointer(query: str | Query) -> str:
+def query_pointer(query: str | Query) -> str:
+    """The pointer of the member that has the query."""
     return "/contextual_query" if isinstance(query, str) else "/query"
 
 

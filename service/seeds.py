@@ -18,14 +18,16 @@ FACT = "seeded"
 """Noted when seeding is complete, so that what a user deletes stays deleted."""
 TAUGHT = "seeds know what they were taught with"
 """Noted when the templates have the kinds of what they were learned with; stores of before 0.2 have not."""
+READ = "seeds are read in English"
+"""Noted when the templates have their readings; stores of before 0.3 have not."""
 
 
 async def seed(services: Services) -> None:
     """Give a new store its built-in data; interrupted, it is taken up again at the next start."""
     with services.store.read() as transaction:
-        seeded, complete = (transaction.fact(fact) is not None for fact in (FACT, TAUGHT))
+        seeded, *complete = (transaction.fact(fact) is not None for fact in (FACT, TAUGHT, READ))
     if seeded:
-        if not complete:
+        if not all(complete):
             await _complete(services)
         return
     with services.store.write() as transaction:
@@ -34,7 +36,7 @@ async def seed(services: Services) -> None:
     for pair in _read()["templates"]:
         await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"], replace=True))
     with services.store.write() as transaction:
-        for fact in (FACT, TAUGHT):
+        for fact in (FACT, TAUGHT, READ):
             if transaction.fact(fact) is None:
                 transaction.add_fact(fact, "1")
 
@@ -48,8 +50,9 @@ async def _complete(services: Services) -> None:
             with suppress(CqltlError):  # it was replaced, or its environment was: then it is not the seed any more
                 await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"]))
     with services.store.write() as transaction:
-        if transaction.fact(TAUGHT) is None:
-            transaction.add_fact(TAUGHT, "1")
+        for fact in (TAUGHT, READ):
+            if transaction.fact(fact) is None:
+                transaction.add_fact(fact, "1")
 
 
 def _read() -> dict[str, Any]:

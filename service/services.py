@@ -14,6 +14,7 @@ from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.settings import Settings
 from service.store import Store, StoredPolicy
+from service.taught import Taught, TaughtCache
 from service.translators import Translators
 from service.worker import Workers
 
@@ -42,6 +43,7 @@ class Services:
         self.store = store
         self.workers = workers
         self.translators = translators
+        self._taught = TaughtCache()
         self._policy = lru_cache(maxsize=16)(self._read_policy)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)
 
@@ -50,6 +52,11 @@ class Services:
         with self.store.read() as transaction:
             text = transaction.environments.text(name)
         return self._parsed(text)
+
+    def known(self) -> Taught:
+        """The templates and the examples of now."""
+        with self.store.read() as transaction:
+            return self._taught.of(transaction)
 
     def policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
         """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""

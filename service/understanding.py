@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from models.errors import CqltlError
 from models.language import BEAM_WIDTH, ComposedTranslator, TaughtTranslator
@@ -19,30 +18,48 @@ from models.language.reading import (
     read,
 )
 from models.logic import Formula
-from models.queries import Binding, GroundedQuery, Path, Query, Template, parse_task
-from models.world import Environment
-from service.lessons import read_template
+from models.queries import Binding, GroundedQuery, Path, Query, explain_query
+from models.world import Environment, explain
 from service.services import Services
-from service.store import StoredExample, StoredTemplate, Transaction
+from service.store import StoredTemplate
+from service.taught import Taught
 from service.translators import DEFAULT
 
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A formula; and unless it was said as a formula, the query, what its arguments were bound to (each with the path
-    of its task), and the warnings of the templates.
+    """A formula; and unless it was said as a formula, the query as it was grounded, the warnings of the templates, and
+    by task the words that were taught for it.
     """
 
     formula: Formula
-    query: Query | None = None
-    bindings: tuple[tuple[Path, Binding], ...] = ()
+    grounded: GroundedQuery | None = None
     warnings: tuple[str, ...] = ()
+    words: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def query(self) -> Query | None:
+        """The query, unless it was said as a formula."""
+        return None if self.grounded is None else self.grounded.query
+
+    @property
+    def bindings(self) -> tuple[tuple[Path, Binding], ...]:
+        """What the arguments of the query were bound to, each with the path of its task."""
+        return () if self.grounded is None else self.grounded.bindings
+
+    def explanation(self, environment: Environment | None) -> str:
+        """What it asks for, in the words that were taught for its tasks, else as its formula reads."""
+        if self.grounded is None or not self.words:
+            return explain(self.formula, environment)
+        return explain_query(self.grounded, dict(self.words), environment).explanation
 
     @classmethod
     def of(cls, grounded: GroundedQuery, stored: Iterable[StoredTemplate]) -> Meaning:
         """The meaning of a query that was put into its templates."""
-        warnings = dict.fromkeys(warning for template in stored for warning in template.warnings)
-        return cls(grounded.formula, grounded.query, grounded.bindings, tuple(warnings))
+        templates = tuple(stored)
+        warnings = dict.fromkeys(warning for template in templates for warning in template.warnings)
+        words = {template.task: template.explanation for template in templates if template.explanation}
+        return cls(grounded.formula, grounded, tuple(warnings), tuple(words.items()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +76,7 @@ class Understanding:
 
 
 def understand(
-    services: Services, text: str, environment: Environment | None, *, translator: str, candidates: int
+    services: Services, taught: Taught, text: str, environment: Environment | None, *, translator: str, candidates: int
 ) -> tuple[Understanding, ...]:
     """Up to `candidates` ways to understand a command, best first; none when no task fits.
 
@@ -77,23 +94,16 @@ def understand(
         formulas = rank_formulas(((found.formula, found.confidence) for found in said), environment=environment)
         return tuple(map(_of_formula, formulas[:candidates]))
     chosen = services.translators.queries(translator)
-    with services.store.read() as transaction:
-        known = _taught(transaction) if translator == DEFAULT else TaughtTranslator(())
-        if isinstance(chosen, ComposedTranslator):
-            chosen = chosen.knowing(known)
-        taught = known.translate(text, candidates=BEAM_WIDTH)
-        learned = chosen.translate(text, candidates=wanted)
-        tasks = {task.task for found in (*learned, *taught) for _, task in found.query.tasks}
-        templates = transaction.templates.among(tasks)
-
-    def template_of(task: str) -> Template | None:
-        return read_template(templates[task]) if task in templates else None
-
+    wordings = taught.wordings if translator == DEFAULT else TaughtTranslator(())
+    if isinstance(chosen, ComposedTranslator):
+        chosen = chosen.knowing(wordings)
+    said_as_taught = wordings.translate(text, candidates=BEAM_WIDTH)
+    learned = chosen.translate(text, candidates=wanted)
     readings = _merged(
-        read(text, taught, template_of=template_of, environment=environment),
-        rank(text, learned, template_of=template_of, environment=environment),
+        read(text, said_as_taught, template_of=taught.template, environment=environment),
+        rank(text, learned, template_of=taught.template, environment=environment),
     )
-    return tuple(_of_reading(reading, templates) for reading in readings[:candidates])
+    return tuple(of_reading(reading, taught.stored) for reading in readings[:candidates])
 
 
 def _merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
@@ -118,7 +128,8 @@ def _shared(readings: Sequence[Reading]) -> list[Reading]:
     return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]
 
 
-def _of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:
+def of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Understanding:
+    """A reading with the warnings of its stored templates."""
     stored = [templates[task.task] for _, task in reading.query.tasks]
     meaning = None if reading.grounded is None else Meaning.of(reading.grounded, stored)
     return Understanding(reading.query, reading.confidence, meaning, reading.refusal)
@@ -127,12 +138,3 @@ def _of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Un
 def _of_formula(reading: FormulaReading) -> Understanding:
     meaning = Meaning(reading.formula) if reading.refusal is None else None
     return Understanding(None, reading.confidence, meaning, reading.refusal)
-
-
-def _taught(transaction: Transaction) -> TaughtTranslator:
-    return _wordings(tuple(transaction.templates.examples()))
-
-
-@lru_cache(maxsize=4)
-def _wordings(examples: tuple[StoredExample, ...]) -> TaughtTranslator:
-    return TaughtTranslator.of((example.text, parse_task(example.contextual_query)) for example in examples)

@@ -8,9 +8,18 @@ from models.language.composition import ComposedTranslator
 from models.language.errors import TextTooLongError, TrainingError, VocabularyError, WeightsError
 from models.language.spans import SpanTranslator
 from models.language.tagging import part_of_speech
+from models.language.teaching import (
+    ExampleArgumentNotFoundError,
+    ExampleMarkError,
+    ExampleTooGeneralError,
+    TaughtTranslator,
+    Utterance,
+    Wording,
+    find_arguments,
+    is_marked,
+)
 from models.language.tokens import MAX_CHARACTERS, MAX_WORDS
 from models.language.translation import BEAM_WIDTH, Translation, Translator
-from models.language.wording import ExampleArgumentNotFoundError, ExampleTooGeneralError, TaughtTranslator, Wording
 
 __all__ = [
     "BEAM_WIDTH",
@@ -18,6 +27,7 @@ __all__ = [
     "MAX_WORDS",
     "ComposedTranslator",
     "ExampleArgumentNotFoundError",
+    "ExampleMarkError",
     "ExampleTooGeneralError",
     "SpanTranslator",
     "TaughtTranslator",
@@ -25,8 +35,11 @@ __all__ = [
     "TrainingError",
     "Translation",
     "Translator",
+    "Utterance",
     "VocabularyError",
     "WeightsError",
     "Wording",
+    "find_arguments",
+    "is_marked",
     "part_of_speech",
 ]

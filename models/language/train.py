@@ -3,6 +3,7 @@
     python -m models.language.train                  the default translator's two networks, and the paper's systems
     python -m models.language.train default --seed 1 --output FOLDER
     python -m models.language.train composition
+    python -m models.language.train matching
     python -m models.language.train paper --domain navigation --hide 0.25 --output FOLDER
 
 Writes, into the output folder, for each model `NAME.safetensors` (the tensors) and `NAME.json` (vocabulary, sizes,
@@ -14,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import random
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -23,11 +25,22 @@ import torch
 from models.language import copynet
 from models.language.composition import NAME
 from models.language.composition.lessons import SETTINGS, CompositionLessons
-from models.language.dataset import Domain
+from models.language.dataset import Domain, no_task
+from models.language.dataset.tasks import task_classes
+from models.language.encoder import MEANING, encoder
+from models.language.matching import training as matching
+from models.language.matching.calibration import calibrated
+from models.language.matching.lessons import lesson, paper_classes, without_task
+from models.language.matching.model import save_model as save_model_of_matching
 from models.language.spans import DEFAULT_NAME, save_model
 from models.language.spans import training as spans
 from models.language.spans.lessons import Lessons
+from models.language.tokens import words
 
+REFUSED = 2_000
+"""Texts without a task that the matching network is shown."""
+HELD_OUT = 6
+"""Every so many-th task class is not fitted to: the matching network is calibrated on these."""
 SHIPPED = Path(__file__).parent / "weights"
 
 
@@ -39,6 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         train_default(_chosen(spans.Settings(), options), seed=options.seed, folder=options.output)
     if options.what in ("composition", "all"):
         train_composition(_chosen(SETTINGS, options), seed=options.seed, folder=options.output)
+    if options.what in ("matching", "all"):
+        train_matching(matching.Settings(), seed=options.seed, folder=options.output)
     if options.what in ("paper", "all"):
         domains = tuple(Domain) if options.domain == "both" else (Domain(options.domain),)
         settings = _copynet_settings(options)
@@ -53,6 +68,34 @@ def train_default(settings: spans.Settings, *, seed: int, folder: Path) -> None:
 def train_composition(settings: spans.Settings, *, seed: int, folder: Path) -> None:
     """Train the network that finds the clauses of a command, and write it with its curve."""
     _train(CompositionLessons.load(seed=seed), settings, seed=seed, folder=folder, name=NAME)
+
+
+def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
+    """Train the network that compares commands with what was taught, and write it with its curve."""
+    generator = random.Random(seed)
+    classes = [*task_classes(), *paper_classes(generator)]
+    lessons = [lesson(task, generator) for task in classes]
+    held_out = [entry for number, entry in enumerate(lessons) if number % HELD_OUT == HELD_OUT - 1]
+    fitted = [entry for entry in lessons if entry not in held_out]
+    texts = no_task(seed=seed)
+    refused, unseen = (
+        [without_task(text) for text in generator.sample(sorted(part), min(REFUSED, len(part))) if words(text)]
+        for part in (texts.training, texts.held_out)
+    )
+    course = matching.Course.of(lessons, [*refused, *unseen], encoder(), MEANING)
+    course = replace(course, lessons=fitted, refused=refused)
+    curve: list[dict[str, float]] = []
+
+    def log(step: dict[str, float]) -> None:
+        curve.append(step)
+        print("matching", " ".join(f"{key} {value}" for key, value in step.items()))
+
+    network = matching.fit(course, settings, seed=seed, log=log)
+    model = calibrated(network, course, held_out, unseen, seed=seed)
+    made = matching.record(settings, seed)
+    save_model_of_matching(replace(model, training=made), folder)
+    (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")
+    print(f"matching: steepness {model.steepness}, threshold {model.threshold}, lesser {model.lesser}")
 
 
 def _train(course: spans.Course, settings: spans.Settings, *, seed: int, folder: Path, name: str) -> None:
@@ -82,7 +125,9 @@ def _copynet_settings(options: argparse.Namespace) -> copynet.Settings:
 
 def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Train the translators.")
-    parser.add_argument("what", nargs="?", choices=["all", "default", "composition", "paper"], default="all")
+    parser.add_argument(
+        "what", nargs="?", choices=["all", "default", "composition", "matching", "paper"], default="all"
+    )
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--epochs", type=int, help="instead of the usual number of each")
     parser.add_argument("--share", type=float, default=1.0, help="default, composition: part of the texts of an epoch")

@@ -33,6 +33,7 @@ from models.logic.formula import (
     substitute,
     walk,
 )
+from models.logic.hierarchy import PropertyClass, classify
 from models.logic.parser import MAX_TEXT, parse
 from models.logic.printer import atom_text, to_text
 from models.logic.simpler import simplify
@@ -61,12 +62,14 @@ __all__ = [
     "Op",
     "Pair",
     "Parameter",
+    "PropertyClass",
     "SpotMissingError",
     "Term",
     "Unary",
     "atom_text",
     "atoms",
     "children",
+    "classify",
     "conjunction",
     "disjunction",
     "equivalent",

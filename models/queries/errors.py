@@ -7,7 +7,8 @@ CqltlError
 ├── InconsistentExamplesError         the examples of one task have no template in common
 ├── ArityMismatchError                a query has more or fewer arguments than its template
 ├── AmbiguousGroundingError           a phrase fits several objects
-└── CompositionError                  an operator has no meaning for its operands
+├── CompositionError                  an operator has no meaning for its operands
+└── ExplanationError                  the words for a task do not say its arguments
 """
 
 from __future__ import annotations
@@ -85,3 +86,9 @@ class CompositionError(CqltlError):
     """An operator of a composed query has no meaning for its operands."""
 
     slug = "impossible-composition"
+
+
+class ExplanationError(CqltlError):
+    """The words for a task have a slot that is no argument, or lack one."""
+
+    slug = "invalid-explanation"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from models.errors import CqltlError, Place
@@ -20,11 +20,14 @@ Path = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class GroundedQuery:
-    """A query evaluated: grounded LTL and the binding of every argument, with the path of its task."""
+    """A query evaluated: grounded LTL and the binding of every argument, with the path of its task; and the formula of
+    every part by its path.
+    """
 
     query: Query
     formula: Formula
     bindings: tuple[tuple[Path, Binding], ...]
+    parts: tuple[tuple[Path, Formula], ...]
 
 
 def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> GroundedQuery:
@@ -52,7 +55,16 @@ def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTas
         raise doubt
     agreeing = agreed(query, tasks)
     bindings = tuple((path, binding) for path, task in agreeing.items() for binding in task.bindings)
-    return GroundedQuery(query, _formula(query, agreeing, (), MAX_COMBINATIONS), bindings)
+    parts = {path: _formula(part, agreeing, path, MAX_COMBINATIONS) for path, part in _parts(query, ())}
+    return GroundedQuery(query, parts[()], bindings, tuple(parts.items()))
+
+
+def _parts(query: Query, path: Path) -> Iterator[tuple[Path, Query]]:
+    """A query and all its parts with their paths, the whole before its parts."""
+    yield path, query
+    if not isinstance(query, ContextualQuery):
+        for place, operand in enumerate(query.operands):
+            yield from _parts(operand, (*path, place))
 
 
 def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path, most: int) -> Formula:

@@ -194,6 +194,19 @@ def _filled(formula: Formula, environment: Environment, bindings: Sequence[Bindi
     return chosen(bindings, {})
 
 
+def put_in(template: Template, query: ContextualQuery) -> GroundedTask:
+    """The template with the phrases themselves as names, for where there is no environment to ground them in.
+
+    Raises:
+        ArityMismatchError: the query has more or fewer arguments than the template.
+    """
+    check_arity(template, query)
+    terms: dict[Term, Term] = {
+        Parameter(position): Name(phrase) for position, phrase in enumerate(query.arguments, start=1)
+    }
+    return GroundedTask(query, substitute(template.formula, terms), ())
+
+
 def check_arity(template: Template, query: ContextualQuery) -> None:
     """Raises `ArityMismatchError` unless the query has as many arguments as the template."""
     if len(query.arguments) != template.arity:

@@ -18,6 +18,7 @@ from models.world.grounding import Grounding, PartOfSpeech, ground, speaks_of_ot
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.oomdp import OomdpWorld
+from models.world.outline import Part, outline
 from models.world.quantifiers import Quantifier, widened, with_values
 from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import ProjectedWorld, Projection, relevant_part
@@ -44,6 +45,7 @@ __all__ = [
     "OomdpSpec",
     "OomdpWorld",
     "Outcomes",
+    "Part",
     "PartOfSpeech",
     "ProjectedWorld",
     "Projection",
@@ -68,6 +70,7 @@ __all__ = [
     "ground",
     "load_environment",
     "navigation_spec",
+    "outline",
     "reachable_part",
     "relevant_part",
     "resolve",

@@ -23,9 +23,11 @@ from models.world.expression import Expression, ExpressionError, Truth, parse_ex
 from models.world.limits import MAX_ARGUMENTS, MAX_DECLARATIONS, MAX_NAME, MAX_SYNONYMS, MAX_TEXT, MAX_TEXTS, MAX_VALUES
 from models.world.name_faults import name_fault
 from models.world.names import IDENTIFIER, NONE, hint
+from models.world.phrases import readable
 from models.world.report import Report
 from models.world.scale_reader import read_scales
 from models.world.specs import ActionSpec, DefinitionSpec, DomainSpec, FunctionSpec, OutcomeSpec
+from models.world.verbs import denial
 
 _HOLE = re.compile(r"\{([^{}]*)\}")
 _RESERVED = frozenset({NONE, "true", "false", "not", "if", "else", "and", "or", "implies", "is"})
@@ -207,8 +209,9 @@ class _Reader:
     def _function(self, name: str, spec: FunctionSpec, definition: Definition) -> Function:
         arguments = definition.arguments
         listed = ", ".join(f"{{{argument.name}}}" for argument in arguments)
-        says = spec.says if spec.says is not None else f"{name}({listed})" if arguments else name.replace("_", " ")
-        denies = spec.denies if spec.denies is not None else _denial(says)
+        plain = f"{name}({listed})" if arguments else readable(name)
+        says = spec.says if spec.says is not None else f"{plain} holds"
+        denies = spec.denies if spec.denies is not None else denial(says)
         path = ("functions", name)
         self._pattern((*path, "says"), says, arguments)
         if spec.denies is not None:
@@ -341,8 +344,3 @@ def read_values(values: list[str], path: tuple[str | int, ...], report: Report) 
             report.add([*path, index], f"{value} is listed twice")
         seen.add(value)
     return tuple(values)
-
-
-def _denial(says: str) -> str:
-    """The negation of a reading: `x is at c` -> `x is not at c`."""
-    return says.replace(" is ", " is not ", 1) if " is " in says else f"not ({says})"

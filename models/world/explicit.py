@@ -13,11 +13,13 @@ from models.logic.formula import Atom
 from models.world.domain import Function
 from models.world.limits import MAX_EXPLICIT_OUTCOMES
 from models.world.name_faults import environment_name_fault, name_fault
+from models.world.phrases import readable
 from models.world.report import Report
 from models.world.resolution import bind_names
 from models.world.specs import ExplicitSpec, TransitionSpec
 from models.world.states import decode_state, encode_state
 from models.world.transitions import Transitions, scaled
+from models.world.verbs import denial
 from models.world.vocabulary import Vocabulary
 from models.world.world import Outcomes, State, Variable
 
@@ -180,8 +182,8 @@ def _read_transitions(spec: ExplicitSpec, report: Report) -> None:
 
 
 def _proposition(name: str) -> Function:
-    spoken = name.replace("_", " ")
-    return Function(name, (), f"{spoken} holds", f"{spoken} does not hold", ())
+    says = f"{readable(name)} holds"
+    return Function(name, (), says, denial(says), ())
 
 
 def _listed(spec: ExplicitSpec, numbers: Mapping[str, int]) -> Transitions:

@@ -6,7 +6,6 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Response
 
 from models.logic import to_text as formula_text
-from models.world import explain
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
 from service.http.schemas import (
     BatchRequest,
@@ -18,7 +17,7 @@ from service.http.schemas import (
     TranslateRequest,
     TranslateResponse,
 )
-from service.http.views import bindings_out, location, query_in, query_out, template_out, translated_out
+from service.http.views import answers_in, bindings_out, location, query_in, query_out, template_out, translated_out
 from service.lessons import Lesson, learn_template
 from service.pipeline import ground, translate
 
@@ -28,7 +27,7 @@ router = APIRouter(tags=["language"])
 @router.post(
     "/translate",
     operation_id="translate",
-    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long"),
+    responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long", "wrong-answer"),
 )
 def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
@@ -40,6 +39,7 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
             state=body.state,
             translator=body.translator,
             candidates=body.candidates,
+            answers=answers_in(body.answers),
         )
     )
 
@@ -92,7 +92,9 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
             "unused-parameter",
             "inconsistent-examples",
             "example-argument-not-found",
+            "example-mark",
             "example-too-general",
+            "invalid-explanation",
             "too-many-examples",
             "out-of-time",
             "overloaded",
@@ -108,11 +110,12 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
         more=tuple((pair.contextual_query, pair.ltl) for pair in body.more),
         examples=tuple(body.examples),
         replace=body.replace,
+        explanation=body.explanation,
     )
-    stored, created = await learn_template(services, lesson)
-    response.status_code = 201 if created else 200
-    response.headers["Location"] = location("templates", stored.task)
-    return template_out(stored)
+    learned = await learn_template(services, lesson)
+    response.status_code = 201 if learned.created else 200
+    response.headers["Location"] = location("templates", learned.stored.task)
+    return template_out(learned.stored, *learned.conflicts)
 
 
 @router.post(
@@ -131,7 +134,7 @@ async def post_ground(body: GroundRequest, services: ServicesDep) -> GroundRespo
     return GroundResponse(
         contextual_query=query_out(meaning.query),
         ltl=formula_text(meaning.formula),
-        explanation=explain(meaning.formula, environment),
+        explanation=meaning.explanation(environment),
         bindings=bindings_out(meaning),
         warnings=list(meaning.warnings),
     )

@@ -8,7 +8,6 @@ import time
 from fastapi import APIRouter
 
 from models.logic import to_text as formula_text
-from models.world import explain
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
 from service.http.schemas import (
     Bounds,
@@ -22,7 +21,7 @@ from service.http.schemas import (
     TrajectoryStep,
     VerifiedOut,
 )
-from service.http.views import bindings_out, environment_data, query_in, query_out
+from service.http.views import answers_in, bindings_out, environment_data, query_in, query_out
 from service.pipeline import Planned, PlanOrder, plan
 
 router = APIRouter(tags=["planning"])
@@ -41,6 +40,7 @@ router = APIRouter(tags=["planning"])
         "text-too-long",
         "not-understood",
         "ambiguous-command",
+        "wrong-answer",
         "formula-syntax",
         "formula-too-large",
         "model-too-large",
@@ -56,6 +56,7 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
     spec = body.environment_spec
     order = PlanOrder(
         text=body.text,
+        answers=answers_in(body.answers),
         query=body.contextual_query if body.query is None else query_in(body.query),
         ltl=body.ltl,
         environment=body.environment,
@@ -106,7 +107,7 @@ def _plan_out(planned: Planned, order: PlanOrder, seconds: float) -> PlanRespons
         objective=order.objective,
         contextual_query=None if meaning.query is None else query_out(meaning.query),
         ltl=formula_text(meaning.formula),
-        explanation=explain(meaning.formula, planned.environment),
+        explanation=meaning.explanation(planned.environment),
         bindings=bindings_out(meaning),
         warnings=list(meaning.warnings),
         environment=planned.environment.name,

@@ -16,6 +16,8 @@ from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
 from models.source import locate
+from service.errors import AmbiguousCommandError
+from service.http.schemas.common import ErrorPlace, QuestionOut
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:cqltl:problem:"
@@ -33,6 +35,7 @@ STATUS: dict[str, int] = {
     "not-found": 404,
     "unknown-environment": 404,
     "unknown-template": 404,
+    "unknown-example": 404,
     "unknown-policy": 404,
     "environment-exists": 409,
     "template-conflict": 409,
@@ -51,11 +54,14 @@ STATUS: dict[str, int] = {
     "inconsistent-examples": 422,
     "too-many-examples": 422,
     "example-argument-not-found": 422,
+    "example-mark": 422,
     "example-too-general": 422,
+    "invalid-explanation": 422,
     # language
     "text-too-long": 422,
     "not-understood": 422,
     "ambiguous-command": 422,
+    "wrong-answer": 422,
     # worlds and plans
     "invalid-environment": 422,
     "invalid-state": 422,
@@ -74,13 +80,6 @@ STATUS: dict[str, int] = {
 _log = logging.getLogger("cqltl")
 
 
-class ErrorPlace(BaseModel):
-    """One wrong place of the request."""
-
-    pointer: str = Field(description="JSON pointer into the request body; empty for the whole.")
-    detail: str = Field(description="What is wrong there.")
-
-
 class Problem(BaseModel):
     """An RFC 9457 problem."""
 
@@ -92,7 +91,8 @@ class Problem(BaseModel):
     line: int | None = Field(None, description="Line of a syntax error, from 1.")
     column: int | None = Field(None, description="Column of a syntax error, from 1.")
     caret: str | None = Field(None, description="The line of a syntax error with a caret under the column.")
-    choices: list[str] | None = Field(None, description="What an ambiguous phrase could mean.")
+    choices: list[str] | None = Field(None, description="What an ambiguous phrase or command could mean.")
+    question: QuestionOut | None = Field(None, description="What an ambiguous command leaves open.")
 
 
 def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
@@ -121,6 +121,8 @@ def _refused(_request: Request, error: Exception) -> JSONResponse:
     members.update({name: getattr(error, name) for name in ("line", "column", "caret") if hasattr(error, name)})
     if hasattr(error, "choices"):
         members["choices"] = list(error.choices)
+    if isinstance(error, AmbiguousCommandError):
+        members["question"] = QuestionOut.of(error.question).model_dump()
     return problem_response(error.slug, error.detail, **members)
 
 

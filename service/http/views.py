@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Any
 from urllib.parse import quote
 
 from models.errors import Place
 from models.logic import to_text as formula_text
-from models.queries import AmbiguousGroundingError, Composition, ContextualQuery, Operator, Query, pointer_of
-from models.world import Environment, EnvironmentSpec, explain
-from service.http.problems import ErrorPlace
+from models.queries import Composition, ContextualQuery, Operator, Query, pointer_of
+from models.world import Environment, EnvironmentSpec
 from service.http.schemas import (
+    AnswerIn,
     BindingOut,
     CandidateOut,
     ContextualQueryTree,
+    ErrorPlace,
+    ExampleOut,
     PairOut,
     ParameterOut,
     QuestionOut,
@@ -24,7 +27,9 @@ from service.http.schemas import (
 )
 from service.pipeline import Translated
 from service.places import at
-from service.store import StoredTemplate
+from service.questions import Answer
+from service.store import StoredExample, StoredTemplate
+from service.taught import Taught
 from service.understanding import Meaning, Understanding
 
 
@@ -76,7 +81,7 @@ def bindings_out(meaning: Meaning) -> list[BindingOut]:
     ]
 
 
-def template_out(stored: StoredTemplate) -> TemplateOut:
+def template_out(stored: StoredTemplate, *further_warnings: str) -> TemplateOut:
     """A stored template."""
     return TemplateOut(
         task=stored.task,
@@ -86,14 +91,31 @@ def template_out(stored: StoredTemplate) -> TemplateOut:
             for position, (kinds, taught) in enumerate(zip_longest(stored.kinds, stored.taught, fillvalue=()), start=1)
         ],
         template=stored.template,
+        explanation=stored.words,
+        reading=stored.reading,
         lifted=stored.lifted,
         pairs=[
             PairOut(contextual_query=p.contextual_query, ltl=p.ltl, environment=p.environment) for p in stored.pairs
         ],
         examples=[example.text for example in stored.examples],
         revision=stored.revision,
-        warnings=list(stored.warnings),
+        warnings=[*stored.warnings, *further_warnings],
     )
+
+
+def example_out(example: StoredExample, taught: Taught) -> ExampleOut:
+    """A taught utterance."""
+    return ExampleOut(
+        id=example.id,
+        text=example.text,
+        contextual_query=example.contextual_query,
+        also_says=list(taught.conflicts(example)),
+    )
+
+
+def answers_in(sent: Sequence[AnswerIn]) -> tuple[Answer, ...]:
+    """The answers that were sent."""
+    return tuple(Answer(answer.choice, answer.part, answer.argument) for answer in sent)
 
 
 def translated_out(translated: Translated) -> TranslateResponse:
@@ -109,7 +131,7 @@ def translated_out(translated: Translated) -> TranslateResponse:
         explanation=best.explanation if best else None,
         bindings=best.bindings if best else [],
         candidates=candidates,
-        question=_question(translated),
+        question=None if translated.question is None else QuestionOut.of(translated.question),
         warnings=best.warnings if best else [],
         issues=best.issues if best else [],
     )
@@ -121,7 +143,7 @@ def _candidate(reading: Understanding, environment: Environment | None) -> Candi
         contextual_query=None if reading.query is None else query_out(reading.query),
         ltl=None if meaning is None else formula_text(meaning.formula),
         confidence=round(reading.confidence, 4),  # what float32 gives alike on every machine
-        explanation=None if meaning is None or environment is None else explain(meaning.formula, environment),
+        explanation=None if meaning is None or environment is None else meaning.explanation(environment),
         bindings=[] if meaning is None else bindings_out(meaning),
         warnings=[] if meaning is None else list(meaning.warnings),
         issues=_issues(reading),
@@ -134,15 +156,3 @@ def _issues(reading: Understanding) -> list[ErrorPlace]:
     pointer = "/ltl" if reading.query is None else "/contextual_query"
     places = reading.refusal.places or (Place("", reading.refusal.detail),)
     return [ErrorPlace(pointer=pointer + place.pointer, detail=place.detail) for place in places]
-
-
-def _question(translated: Translated) -> QuestionOut | None:
-    refusal = translated.readings[0].refusal if translated.readings else None
-    if not isinstance(refusal, AmbiguousGroundingError):
-        return None
-    return QuestionOut(
-        part=refusal.places[0].pointer.rpartition("/arguments/")[0] if refusal.places else "",
-        argument=refusal.position,
-        text=f"which {refusal.phrase}?",
-        choices=list(refusal.choices),
-    )

@@ -26,9 +26,21 @@ templates = Table(
     Column("kinds", JSON, nullable=False),  # one sorted list of kinds per argument
     Column("taught", JSON, nullable=False),  # likewise, of the things it was learned with; [] when not known
     Column("pairs", JSON, nullable=False),  # what it was learned from
-    Column("examples", JSON, nullable=False),  # utterances of the task with their queries
     Column("warnings", JSON, nullable=False),
     Column("revision", Integer, nullable=False),
+    Column("reading", Text, nullable=False),  # the formula in English, with slots; empty when not known
+    Column("explanation", Text, nullable=False),  # the words that were taught for it, likewise
+)
+
+examples = Table(
+    "examples",
+    metadata,
+    Column("task", String(200), primary_key=True),
+    Column("id", String(16), primary_key=True),
+    Column("number", Integer, nullable=False),  # the order in which the task's were taught
+    Column("text", Text, nullable=False),
+    Column("contextual_query", Text, nullable=False),
+    Column("reading", LargeBinary),  # models.language.matching; null when it was not read yet
 )
 
 policies = Table(

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from sqlalchemy import Connection, Row, bindparam, delete, insert, select, update
 
 from service.errors import UnknownTemplateError
-from service.store.tables import templates
+from service.store.examples import ExampleRepository, StoredExample
+from service.store.tables import facts, templates
 
+VERSION = "lessons"
+"""Fact that counts the changes of what was taught."""
 # Every translation asks these two; built once, they take half the time.
 _AMONG = select(templates).where(templates.c.task.in_(bindparam("tasks", expanding=True)))
-_EXAMPLES = select(templates.c.examples).order_by(templates.c.task)
+_VERSION = select(facts.c.value).where(facts.c.name == VERSION)
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,17 +29,10 @@ class StoredPair:
 
 
 @dataclass(frozen=True, slots=True)
-class StoredExample:
-    """An utterance and the contextual query it says, as text."""
-
-    text: str
-    contextual_query: str
-
-
-@dataclass(frozen=True, slots=True)
 class StoredTemplate:
     """The template of one task. `kinds` and `taught` hold a sorted tuple of kinds per argument; `taught` is empty when
-    it is not known.
+    it is not known. `reading` is the formula in English with slots such as `{1}`, empty in stores of before 0.3;
+    `explanation` the words that were taught for it, empty when none were.
     """
 
     task: str
@@ -48,6 +44,13 @@ class StoredTemplate:
     examples: tuple[StoredExample, ...]
     warnings: tuple[str, ...]
     revision: int
+    reading: str = ""
+    explanation: str = ""
+
+    @property
+    def words(self) -> str:
+        """What the task says, with slots for its arguments: the words that were taught, else the formula's reading."""
+        return self.explanation or self.reading
 
     @property
     def arity(self) -> int:
@@ -61,17 +64,24 @@ class TemplateRepository:
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
 
+    @property
+    def examples(self) -> ExampleRepository:
+        """What was taught by utterances."""
+        return ExampleRepository(self._connection)
+
+    def version(self) -> int:
+        """Counts the changes of what was taught: as long as it stays, so do all templates and examples."""
+        return int(self._connection.scalar(_VERSION) or 0)
+
     def find(self, task: str) -> StoredTemplate | None:
         """The template of the task, or None."""
-        row = self._connection.execute(select(templates).where(templates.c.task == task)).first()
-        return None if row is None else _read(row)
+        return self.among([task]).get(task)
 
     def among(self, tasks: Collection[str]) -> dict[str, StoredTemplate]:
         """The templates of those of the tasks that have one, by task."""
         if not tasks:
             return {}
-        rows = self._connection.execute(_AMONG, {"tasks": sorted(tasks)})
-        return {row.task: _read(row) for row in rows}
+        return self._with_examples(self._connection.execute(_AMONG, {"tasks": sorted(tasks)}))
 
     def get(self, task: str) -> StoredTemplate:
         """The template of the task; raises `UnknownTemplateError`."""
@@ -82,31 +92,54 @@ class TemplateRepository:
 
     def page(self, *, after: str = "", limit: int) -> list[StoredTemplate]:
         """Up to `limit` templates in order of task, from the first whose task is greater than `after`."""
-        rows = self._connection.execute(
-            select(templates).where(templates.c.task > after).order_by(templates.c.task).limit(limit)
-        )
-        return [_read(row) for row in rows]
+        asked = select(templates).where(templates.c.task > after).order_by(templates.c.task).limit(limit)
+        return list(self._with_examples(self._connection.execute(asked)).values())
 
-    def examples(self) -> list[StoredExample]:
-        """Every taught utterance, in order of task."""
-        rows = self._connection.scalars(_EXAMPLES)
-        return [StoredExample(**example) for row in rows for example in row]
+    def every(self) -> dict[str, StoredTemplate]:
+        """All templates by task, in order of task."""
+        return self._with_examples(self._connection.execute(select(templates).order_by(templates.c.task)))
 
     def put(self, template: StoredTemplate) -> None:
         """Store the template, in place of the task's present one if there is one."""
         values = asdict(template)
-        if self.find(template.task) is None:
+        del values["examples"]
+        known = self._connection.scalar(select(templates.c.task).where(templates.c.task == template.task))
+        if known is None:
             self._connection.execute(insert(templates).values(values))
         else:
             self._connection.execute(update(templates).where(templates.c.task == template.task).values(values))
+        self.examples.keep(template.task, template.examples)
+        self._changed()
 
     def delete(self, task: str) -> None:
-        """Remove the template; raises `UnknownTemplateError`."""
+        """Remove the template and its examples; raises `UnknownTemplateError`."""
         self.get(task)
+        self.examples.keep(task, ())
         self._connection.execute(delete(templates).where(templates.c.task == task))
+        self._changed()
+
+    def delete_example(self, task: str, key: str) -> None:
+        """Remove one example of a task; raises `UnknownTemplateError`, `UnknownExampleError`."""
+        known = self.get(task)
+        self.examples.delete(task, key)
+        revised = update(templates).where(templates.c.task == task).values(revision=known.revision + 1)
+        self._connection.execute(revised)
+        self._changed()
+
+    def _changed(self) -> None:
+        version = self.version()
+        if version:
+            self._connection.execute(update(facts).where(facts.c.name == VERSION).values(value=str(version + 1)))
+        else:
+            self._connection.execute(insert(facts).values(name=VERSION, value="1"))
+
+    def _with_examples(self, rows: Iterable[Row[Any]]) -> dict[str, StoredTemplate]:
+        found = {row.task: row for row in rows}
+        taught = self.examples.of(found)
+        return {task: _read(row, taught[task]) for task, row in found.items()}
 
 
-def _read(row: Row[Any]) -> StoredTemplate:
+def _read(row: Row[Any], examples: tuple[StoredExample, ...]) -> StoredTemplate:
     return StoredTemplate(
         task=row.task,
         template=row.template,
@@ -114,7 +147,9 @@ def _read(row: Row[Any]) -> StoredTemplate:
         kinds=tuple(tuple(kinds) for kinds in row.kinds),
         taught=tuple(tuple(kinds) for kinds in row.taught),
         pairs=tuple(StoredPair(**pair) for pair in row.pairs),
-        examples=tuple(StoredExample(**example) for example in row.examples),
+        examples=examples,
         warnings=tuple(row.warnings),
         revision=row.revision,
+        reading=row.reading,
+        explanation=row.explanation,
     )

@@ -3,7 +3,17 @@ them.
 """
 
 from service.worker.drawing import DrawingJob, DrawnFormat, run_drawing
-from service.worker.jobs import Device, Objective, PlanAnswer, PlanJob, ReviewJob, Verified, run_plan, run_review
+from service.worker.jobs import (
+    Device,
+    Objective,
+    PlanAnswer,
+    PlanJob,
+    ReviewJob,
+    Verified,
+    run_classification,
+    run_plan,
+    run_review,
+)
 from service.worker.pool import Workers
 from service.worker.simulation import SimulationAnswer, SimulationJob, run_simulation
 
@@ -19,6 +29,7 @@ __all__ = [
     "SimulationJob",
     "Verified",
     "Workers",
+    "run_classification",
     "run_drawing",
     "run_plan",
     "run_review",

@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from models.logic import Formula, equivalent, parse
+from models.logic import Formula, PropertyClass, classify, equivalent, parse
 from models.queries import Template, review
 from models.world import State, World
 from service.worker.worlds import read_environment, read_world
@@ -144,6 +144,11 @@ def run_plan(job: PlanJob) -> PlanAnswer:
 def run_review(job: ReviewJob) -> tuple[str, ...]:
     """The warnings of a template."""
     return review(job.template, read_environment(job.environment))
+
+
+def run_classification(formula: Formula) -> PropertyClass:
+    """The class of a formula."""
+    return classify(formula)
 
 
 def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedState, int, str | None], ...]:

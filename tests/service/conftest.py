@@ -15,7 +15,7 @@ import pytest
 from benchmarks.server import serving
 
 PROBLEM = "urn:cqltl:problem:"
-MEMBERS = {"type", "title", "status", "detail", "errors", "line", "column", "caret", "choices"}
+MEMBERS = {"type", "title", "status", "detail", "errors", "line", "column", "caret", "choices", "question"}
 
 Snapshot = Callable[[], dict[str, Any]]
 

@@ -45,6 +45,19 @@ def test_what_was_deleted_stays_deleted(tmp_path: Path) -> None:
         assert client.get("/templates/ship").status_code == 200
 
 
+def test_the_first_tasks_of_an_older_store_get_their_readings(tmp_path: Path) -> None:
+    with serving(tmp_path) as client:
+        before = client.get("/templates/ship").json()
+        assert client.delete("/templates/pickup").status_code == 204
+    with sqlite3.connect(tmp_path / "cqltl.sqlite3") as store:
+        store.execute("UPDATE templates SET reading = ''")
+        store.execute("DELETE FROM facts WHERE name = 'seeds are read in English'")
+    store.close()
+    with serving(tmp_path) as client:
+        assert client.get("/templates/ship").json() == {**before, "revision": before["revision"] + 1}
+        assert client.get("/templates/pickup").status_code == 404
+
+
 def test_two_servers_share_a_store(tmp_path: Path) -> None:
     """Both start on an empty folder at once; what one learns, the other knows at once."""
     with started(tmp_path) as one, started(tmp_path) as two:

@@ -45,6 +45,30 @@ def test_the_same_against_a_server(client: httpx.Client, tmp_path: Path) -> None
     assert not (tmp_path / "unused").exists()
 
 
+def test_explaining_without_a_server_and_with_one(client: httpx.Client, tmp_path: Path) -> None:
+    learned = run_cli(
+        "learn",
+        "stash(sphere)",
+        "F in(sphere, box)",
+        "--environment",
+        "toys",
+        "--explanation",
+        "the {1} is stashed",
+        data=tmp_path,
+    )
+    assert learned.returncode == 0, learned.stderr
+    here = run_cli("explain", "--contextual-query", "stash(cylinder)", "--environment", "toys", data=tmp_path)
+    said = json.loads(here.stdout)
+    assert (said["explanation"], said["reading"]) == (
+        "the cylinder is stashed",
+        "eventually the cylinder is in the box",
+    )
+    arguments = ["explain", "G F a", "--server", str(client.base_url)]
+    there = run_cli(*arguments, data=tmp_path / "unused")
+    assert json.loads(there.stdout)["explanation"] == "again and again a holds"
+    assert not (tmp_path / "unused").exists()
+
+
 def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> None:
     file = tmp_path / "world.yaml"
     file.write_text(yaml.safe_dump({**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "filed"}))
@@ -68,6 +92,8 @@ def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> Non
         (["plan", "--ltl", "F a", "--environment", "atlantis"], 1, "unknown-environment"),
         (["plan", "--ltl", "F a", "--environment-file", "/no/such/file"], 1, "/no/such/file"),
         (["plan", "--ltl", "F a"], 2, "--environment"),
+        (["explain", "F ("], 1, "formula-syntax"),
+        (["explain"], 2, "required"),
         (["fly"], 2, "invalid choice"),
     ],
 )

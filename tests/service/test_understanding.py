@@ -85,13 +85,13 @@ def readings(*found: tuple[str, float]) -> tuple[Translation, ...]:
 def understood(
     services: Services, text: str, environment: Environment | None = TOYS, *, by: str = "default", candidates: int = 3
 ) -> list[tuple[str, float]]:
-    found = understand(services, text, environment, translator=by, candidates=candidates)
+    found = understand(services, services.known(), text, environment, translator=by, candidates=candidates)
     return [(str(each.query), pytest.approx(each.confidence)) for each in found]
 
 
 def test_what_makes_sense_in_the_environment_comes_first(services: Services, network: Said) -> None:
     network.readings = readings(("visit(sphere)", 0.6), ("fetch(sphere)", 0.3))
-    first, second = understand(services, "go to the sphere", TOYS, translator="default", candidates=2)
+    first, second = understand(services, services.known(), "go to the sphere", TOYS, translator="default", candidates=2)
     assert (str(first.query), str(second.query)) == ("fetch(sphere)", "visit(sphere)")
     assert first.meaning is not None
     assert (to_text(first.meaning.formula), first.meaning.warnings) == ("F holding(sphere)", ("careful",))
@@ -140,7 +140,7 @@ def test_a_task_that_is_not_stored_is_not_understood(services: Services, network
 def test_a_wrong_number_of_arguments_is_told(services: Services, network: Said) -> None:
     network.readings = readings(("fetch(sphere, kitchen)", 0.9))
     for environment in (TOYS, None):
-        (found,) = understand(services, "fetch", environment, translator="cq-copynet", candidates=1)
+        (found,) = understand(services, services.known(), "fetch", environment, translator="cq-copynet", candidates=1)
         assert found.refusal is not None
         assert found.refusal.slug == "arity-mismatch"
 
@@ -152,7 +152,9 @@ def test_formulas_are_resolved(services: Services, ltl: Formulas) -> None:
     )
 
     def ask(environment: Environment | None) -> tuple[Understanding, ...]:
-        return understand(services, "put it away", environment, translator="ltl-copynet", candidates=2)
+        return understand(
+            services, services.known(), "put it away", environment, translator="ltl-copynet", candidates=2
+        )
 
     first, second = ask(TOYS)
     assert first.meaning is not None

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from itertools import islice, product
 from typing import Protocol
 
+from models.language.teaching.utterance import DETERMINERS
 from models.language.tokens import find, is_mark
 from models.language.translation import Translation
-from models.language.wording import DETERMINERS
 from models.queries import ContextualQuery
 
 

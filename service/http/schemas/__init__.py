@@ -1,18 +1,29 @@
 """Shapes of requests and responses (docs/http.md), by resource."""
 
-from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request, ThingOut
+from service.http.schemas.common import (
+    AnswerIn,
+    BindingOut,
+    ContextualQueryTree,
+    ErrorPlace,
+    Health,
+    QuestionOut,
+    Request,
+    ThingOut,
+)
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
+from service.http.schemas.explanations import ExplainRequest, ExplainResponse, ExplanationPart, KindOut
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
     CandidateOut,
+    ExampleList,
+    ExampleOut,
     GroundRequest,
     GroundResponse,
     LearnRequest,
     PairIn,
     PairOut,
     ParameterOut,
-    QuestionOut,
     TemplateList,
     TemplateOut,
     TranslateRequest,
@@ -46,6 +57,7 @@ from service.http.schemas.policies import (
 )
 
 __all__ = [
+    "AnswerIn",
     "AutomatonOut",
     "BatchRequest",
     "BatchResponse",
@@ -56,9 +68,16 @@ __all__ = [
     "EnvironmentList",
     "EnvironmentOut",
     "EnvironmentSummary",
+    "ErrorPlace",
+    "ExampleList",
+    "ExampleOut",
+    "ExplainRequest",
+    "ExplainResponse",
+    "ExplanationPart",
     "GroundRequest",
     "GroundResponse",
     "Health",
+    "KindOut",
     "LearnRequest",
     "ModelSize",
     "PairIn",

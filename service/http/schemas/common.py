@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from service.questions import Question
 from service.translators import TranslatorKey
 
 MAX_COMMAND = 2_000
@@ -82,6 +83,52 @@ class BindingOut(BaseModel):
     kind: str = Field(description="Its class or attribute type.")
     reason: str = Field(description="Why the phrase names it.")
     things: list[ThingOut] = Field(description="All that is meant.")
+
+
+class ErrorPlace(BaseModel):
+    """One wrong place of the request."""
+
+    pointer: str = Field(description="JSON pointer into the request body; empty for the whole.")
+    detail: str = Field(description="What is wrong there.")
+
+
+class QuestionOut(BaseModel):
+    """A question to ask back. It is answered by sending the request again with its choice in `answers`."""
+
+    about: Literal["thing", "reading"] = Field(
+        description="Which thing an argument names, or which of several queries was meant."
+    )
+    text: str
+    choices: list[str] = Field(description="Names of things, or contextual queries.")
+    says: list[str] = Field(description="What each of the choices is, in English.")
+    part: str = Field(description="JSON pointer of the argument's task in the query; empty where it is not composed.")
+    argument: int | None = Field(description="Position of the argument in doubt, from 1; null where a reading is.")
+
+    @classmethod
+    def of(cls, question: Question) -> Self:
+        """The question of the use cases."""
+        return cls(
+            about=question.about,
+            text=question.text,
+            choices=list(question.choices),
+            says=list(question.says),
+            part=question.part,
+            argument=question.argument,
+        )
+
+
+class AnswerIn(Request):
+    """One of the `choices` of a question, with its `part` and `argument`."""
+
+    choice: str = Field(max_length=4_096)
+    part: str = Field("", max_length=200)
+    argument: int | None = Field(None, ge=1, le=16)
+
+
+Answers = Annotated[
+    list[AnswerIn],
+    Field(description="To the questions that this text led to, in the order in which they were asked."),
+]
 
 
 class Health(BaseModel):

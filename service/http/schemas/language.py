@@ -6,14 +6,17 @@ from typing import Literal, Self
 
 from pydantic import BaseModel, Field, model_validator
 
-from service.http.problems import ErrorPlace
+from models.queries import MAX_WORDS
 from service.http.schemas.common import (
+    Answers,
     BindingOut,
     Command,
     ContextualQueryTree,
     EnvironmentName,
+    ErrorPlace,
     FormulaText,
     QueryText,
+    QuestionOut,
     Request,
     State,
     TranslatorName,
@@ -43,6 +46,7 @@ class TranslateRequest(_InEnvironment):
     text: Command
     translator: TranslatorName = "default"
     candidates: int = Field(1, ge=1, le=10, description="How many readings to return at most.")
+    answers: Answers = Field(default_factory=list, max_length=16)
 
 
 class BatchRequest(_InEnvironment):
@@ -62,19 +66,13 @@ class CandidateOut(BaseModel):
         "From `ltl-copynet` without an environment: as the network wrote it."
     )
     confidence: float = Field(description="Probability of this reading, in the environment if one is named.")
-    explanation: str | None = Field(description="The formula read back in English.")
+    explanation: str | None = Field(
+        description="What was understood, in English, to be confirmed: in the words that were taught, else as the "
+        "formula reads."
+    )
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template; see `GET /templates/{task}`.")
     issues: list[ErrorPlace] = Field(description="Why there is no `ltl`.")
-
-
-class QuestionOut(BaseModel):
-    """A question to ask back."""
-
-    part: str = Field(description="JSON pointer of its task within the query; empty where it is not composed.")
-    argument: int = Field(description="Position of the argument in doubt, from 1.")
-    text: str
-    choices: list[str]
 
 
 class TranslateResponse(BaseModel):
@@ -112,9 +110,19 @@ class LearnRequest(PairIn):
     environment: EnvironmentName
     more: list[PairIn] = Field(default_factory=list, max_length=20)
     examples: list[Command] = Field(
-        default_factory=list, max_length=50, description="Utterances of the first example's query."
+        default_factory=list,
+        max_length=50,
+        description="Utterances of the task. Arguments may be marked: `{1}` stands for the first argument of the first "
+        "example, `{2: the old radio}` for the second in other words. Without marks they are found by the words of "
+        "the examples' arguments, or by what they name in the environment.",
     )
     replace: bool = Field(False, description="Put this template in the place of another one of the task.")
+    explanation: str | None = Field(
+        None,
+        max_length=MAX_WORDS,
+        examples=["the {1} ends up in the {2}"],
+        description="What the task is read back as, with a slot for each argument; by default as its formula reads.",
+    )
 
 
 class ParameterOut(BaseModel):
@@ -140,11 +148,31 @@ class TemplateOut(BaseModel):
     arity: int
     parameters: list[ParameterOut]
     template: str = Field(description="Templated LTL.")
+    explanation: str = Field(
+        description="What it is read back as, with slots such as `{1}`: the words that were taught, else `reading`."
+    )
+    reading: str = Field(description="Its formula in English; empty when it was learned before readings were kept.")
     lifted: str = Field(description="Lifted LTL of the first example.")
     pairs: list[PairOut]
     examples: list[str]
     revision: int
     warnings: list[str]
+
+
+class ExampleOut(BaseModel):
+    """An utterance that a task was taught with."""
+
+    id: str
+    text: str = Field(description="As it was given, with marks if it had any.")
+    contextual_query: str = Field(description="What it says.")
+    also_says: list[str] = Field(description="Other tasks that were taught with the same wording: a conflict.")
+
+
+class ExampleList(BaseModel):
+    """A page of examples."""
+
+    items: list[ExampleOut]
+    next: str | None = Field(description="Pass as `cursor` for the next page; null on the last.")
 
 
 class TemplateList(BaseModel):
@@ -174,6 +202,6 @@ class GroundResponse(BaseModel):
 
     contextual_query: ContextualQueryTree
     ltl: str
-    explanation: str
+    explanation: str = Field(description="What it asks for, in English; see `POST /explain` for the letter of it.")
     bindings: list[BindingOut]
     warnings: list[str] = Field(description="What to know of the task's template.")

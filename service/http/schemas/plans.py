@@ -8,6 +8,7 @@ from pydantic import BaseModel, Field, model_validator
 
 from models.world import EnvironmentSpec
 from service.http.schemas.common import (
+    Answers,
     BindingOut,
     Command,
     ContextualQueryTree,
@@ -57,6 +58,7 @@ class PlanRequest(Request):
     environment_spec: EnvironmentSpec | None = None
     state: State | None = None
     translator: TranslatorName = "default"
+    answers: Answers = Field(default_factory=list, max_length=16)
     options: PlanOptions = Field(default_factory=PlanOptions)
 
     @model_validator(mode="after")
@@ -64,6 +66,8 @@ class PlanRequest(Request):
         for names in (("text", "contextual_query", "query", "ltl"), ("environment", "environment_spec")):
             if sum(getattr(self, name) is not None for name in names) != 1:
                 raise ValueError(f"give exactly one of {', '.join(names)}")
+        if self.answers and self.text is None:
+            raise ValueError("answers belong to a text")
         return self
 
 

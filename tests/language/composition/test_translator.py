@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator
+from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
 from models.queries import Composition, ContextualQuery, parse_task
 
 
@@ -56,7 +56,7 @@ def test_readings_have_shares_of_one_and_the_same_text_the_same_readings(transla
 
 
 def test_taught_clauses(translator: ComposedTranslator) -> None:
-    taught = TaughtTranslator.of([("water the roses", parse_task("water(roses)"))])
+    taught = TaughtTranslator.of([Utterance.of("water the roses", parse_task("water(roses)"))])
     found = translator.knowing(taught).translate("never water the tulips")
     assert str(found[0].query) == "avoid(water(tulips))"
     assert not any("water(" in str(reading.query) for reading in translator.translate("never water the tulips"))

@@ -16,6 +16,7 @@ ROUTES = [
     "/translate/batch",
     "/learn",
     "/ground",
+    "/explain",
     "/plan",
     "/environments",
     "/policies/x/step",
@@ -46,9 +47,9 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-@pytest.mark.parametrize("route", ["/plan", "/learn"])
+@pytest.mark.parametrize("route", ["/plan", "/learn", "/explain"])
 def test_hostile_formulas(client: httpx.Client, route: str, name: str) -> None:
-    body = {"ltl": HOSTILE[name], "environment": "toys"} | ({} if route == "/plan" else LESSON)
+    body = {"ltl": HOSTILE[name], "environment": "toys"} | (LESSON if route == "/learn" else {})
     started = time.monotonic()
     response = client.post(route, json=body)
     assert 400 <= response.status_code < 500, response.text[:500]

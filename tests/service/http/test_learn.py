@@ -28,6 +28,8 @@ def test_learns_a_class_and_grounds_it_on_other_objects(client: httpx.Client) ->
             {"position": 2, "type": "box", "taught": "box"},
         ],
         "template": "F in($1, $2)",
+        "explanation": "eventually {1} is in {2}",
+        "reading": "eventually {1} is in {2}",
         "lifted": "F in(t, b)",
         "pairs": [{"contextual_query": "stow(cylinder, box)", "ltl": "F in(cylinder, box)", "environment": "toys"}],
         "examples": ["stow the cylinder away in the box"],

@@ -197,7 +197,7 @@ def test_planning_from_a_given_state(client: httpx.Client) -> None:
         ({"ltl": "F in(box, sphere)"}, "type-mismatch", 422, ["/ltl"]),
         ({"ltl": "F holding($1)"}, "unknown-object", 422, ["/ltl"]),
         ({"ltl": None, "text": "sing me a song"}, "not-understood", 422, ["/text"]),
-        ({"ltl": None, "text": "pick up the unicorn"}, "unknown-object", 422, ["/text"]),
+        ({"ltl": None, "text": "pick up the unicorn"}, "ambiguous-command", 422, ["/text"]),
         ({"ltl": None, "contextual_query": "sing(song)"}, "unknown-template", 404, ["/contextual_query"]),
         ({"ltl": None, "contextual_query": "pickup(song)"}, "unknown-object", 422, ["/contextual_query/arguments/0"]),
         ({"environment": "atlantis"}, "unknown-environment", 404, ["/environment"]),

@@ -35,7 +35,7 @@ def test_the_system_of_formulas_has_no_contextual_query(client: httpx.Client) ->
     answer = translate(client, "ltl-copynet", SHIP, environment="toys", candidates=2)
     assert (answer["outcome"], answer["contextual_query"], answer["ltl"]) == ("translated", None, SHIP_LTL)
     assert answer["explanation"] == (
-        "eventually cylinder is in box, and then box is at bedroom while cylinder is in box"
+        "eventually the cylinder is in the box, and then the box is in the bedroom while the cylinder is in the box"
     )
     assert 0.5 < answer["confidence"] <= 1
     assert (answer["bindings"], answer["warnings"], answer["issues"], answer["question"]) == ([], [], [], None)

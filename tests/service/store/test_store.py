@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -11,19 +12,29 @@ from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
-from sqlalchemy import inspect
+from sqlalchemy import JSON, Integer, String, column, insert, inspect
+from sqlalchemy import table as sql_table
 
 from service.errors import (
     EnvironmentExistsError,
     UnknownEnvironmentError,
+    UnknownExampleError,
     UnknownPolicyError,
     UnknownTemplateError,
 )
-from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate
+from service.store import Store, StoredExample, StoredPair, StoredPolicy, StoredTemplate, Transaction
 from service.store.engine import open_engine
 from service.store.migrate import migrate
 from service.store.policies import PolicyEntry
 from service.store.tables import metadata
+
+OLD_TEMPLATES = sql_table(
+    "templates",
+    *(column(name, String) for name in ("task", "template", "lifted")),
+    *(column(name, JSON) for name in ("kinds", "taught", "pairs", "examples", "warnings")),
+    column("revision", Integer),
+)
+"""As of before the examples had a table of their own."""
 
 
 @pytest.fixture
@@ -44,6 +55,8 @@ def template(task: str, revision: int = 1) -> StoredTemplate:
         examples=(StoredExample("take a", f"{task}(a)"),),
         warnings=("odd",),
         revision=revision,
+        reading="eventually the robot is holding {1}",
+        explanation="{1} is taken",
     )
 
 
@@ -72,6 +85,31 @@ def alembic(url: str) -> Config:
     return config
 
 
+def put_as_before_0_3(transaction: Transaction, new: StoredTemplate) -> None:
+    """Store a template where the columns of explanations are not there yet."""
+    values = {name: value for name, value in asdict(new).items() if name not in ("reading", "explanation")}
+    transaction.connection.execute(insert(OLD_TEMPLATES).values(values))
+
+
+def test_templates_of_before_0_3_are_kept_and_have_no_reading(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'store.sqlite3'}"
+    command.upgrade(alembic(url), "0003")
+    store = Store(url)
+    with store.write() as transaction:
+        put_as_before_0_3(transaction, template("t"))
+    migrate(url)
+    with store.write() as transaction:
+        known = transaction.templates.get("t")
+        assert known == replace(template("t"), reading="", explanation="")
+        assert known.words == ""
+        transaction.templates.put(template("t"))
+    command.downgrade(alembic(url), "0003")
+    migrate(url)
+    with store.read() as transaction:
+        assert transaction.templates.get("t") == known
+    store.close()
+
+
 def test_the_first_revision_can_be_undone(url: str) -> None:
     command.downgrade(alembic(url), "base")
     engine = open_engine(url)
@@ -84,7 +122,7 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
     command.upgrade(alembic(url), "0002")
     store = Store(url)
     with store.write() as transaction:
-        transaction.templates.put(template("t"))
+        put_as_before_0_3(transaction, template("t"))
         transaction.environments.add("e", "oomdp", {"a": 1})
         old = "INSERT INTO policies (id, environment, ltl, data) VALUES (?, ?, ?, ?)"
         transaction.connection.exec_driver_sql(old, ("p", "e", "F a", b"cqltl\x00p1"))
@@ -94,13 +132,37 @@ def test_policies_of_before_0_3_are_deleted_and_all_else_is_kept(tmp_path: Path)
         assert transaction.policies.page(limit=9) == []
         with pytest.raises(UnknownPolicyError):
             transaction.policies.get("p")
-        assert transaction.templates.get("t") == template("t")
+        assert transaction.templates.get("t") == replace(template("t"), reading="", explanation="")
         assert transaction.environments.get("e").data == {"a": 1}
         transaction.policies.add(new)
     command.downgrade(alembic(url), "0002")
     migrate(url)
     with store.read() as transaction:
         assert transaction.policies.page(limit=9) == []
+        assert transaction.templates.get("t").examples == template("t").examples
+    store.close()
+
+
+def test_what_was_taught_has_a_version_and_examples_can_go_one_by_one(url: str) -> None:
+    store, added = Store(url), StoredExample("get hold of a", "t(a)")
+    taught = replace(template("t"), examples=(*template("t").examples, added))
+    with store.write() as transaction:
+        assert transaction.templates.version() == 0
+        transaction.templates.put(template("t"))
+        transaction.templates.examples.note([(template("t").examples[0].id, b"read"), (added.id, b"not there yet")])
+        transaction.templates.put(taught)
+        assert transaction.templates.version() == 2
+        assert transaction.templates.get("t") == taught
+        assert transaction.templates.examples.readings() == {template("t").examples[0].id: b"read"}
+        transaction.templates.delete_example("t", taught.examples[0].id)
+        assert transaction.templates.get("t") == replace(taught, examples=(added,), revision=2)
+        assert transaction.templates.version() == 3
+        with pytest.raises(UnknownExampleError):
+            transaction.templates.delete_example("t", taught.examples[0].id)
+        transaction.templates.delete("t")
+        assert transaction.templates.every() == {}
+        assert transaction.templates.examples.every() == {}
+        assert transaction.templates.version() == 4
     store.close()
 
 
@@ -116,7 +178,7 @@ def test_rows_come_back_as_they_were_put(url: str) -> None:
     with store.read() as transaction:
         assert transaction.templates.page(limit=9) == [template("a", 2), template("b")]
         assert transaction.templates.page(after="a", limit=9) == [template("b")]
-        assert transaction.templates.examples() == [StoredExample("take a", f"{task}(a)") for task in "ab"]
+        assert list(transaction.templates.every()) == ["a", "b"]
         assert transaction.templates.among(["a", "c"]) == {"a": template("a", 2)}
         assert transaction.templates.among([]) == {}
         assert list(transaction.environments.get("e").data) == ["z", "a"]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from models.errors import CqltlError, Place
+from models.language.teaching.utterance import DETERMINERS, Utterance
 from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
@@ -21,20 +22,12 @@ MAX_STEPS = 20_000
 """Most comparisons for one command and wording; a wording that needs more does not match."""
 MAX_TOTAL_STEPS = 200_000
 """Most comparisons for one command; wordings after that, the least literal ones, are not tried."""
-DETERMINERS = frozenset({"the", "a", "an", "this", "that", "my", "your"})
-"""Left out of wordings and commands alike, where a phrase begins."""
 CONNECTIVES = frozenset({"and", "then", "or", "but", "until", "before", "after", "while", "unless"})
 """Never within a phrase: what follows one of them is another clause."""
 
 Slot = int
 Element = str | Slot
 """A word that must stand there, or the number of an argument, from 0."""
-
-
-class ExampleArgumentNotFoundError(CqltlError):
-    """An utterance does not contain the words of an argument of its query."""
-
-    slug = "example-argument-not-found"
 
 
 class ExampleTooGeneralError(CqltlError):
@@ -52,26 +45,30 @@ class Wording:
     elements: tuple[Element, ...]
 
     @classmethod
-    def of(cls, utterance: str, query: ContextualQuery) -> Wording:
-        """The wording of one utterance of a query; longer arguments are found first.
+    def of(cls, utterance: Utterance) -> Wording:
+        """The wording of an utterance.
 
         Raises:
-            ExampleArgumentNotFoundError: an argument's words do not stand in the utterance.
             ExampleTooGeneralError: it has no word besides its arguments.
-            TextTooLongError: the utterance is beyond the limits of a command.
         """
-        elements: list[Element] = list(words(utterance))
-        phrases = [_without_determiner(words(phrase)) for phrase in query.arguments]
-        for slot in sorted(range(len(phrases)), key=lambda index: -len(phrases[index])):
-            if not _put_slot(elements, phrases[slot], slot):
-                detail = (
-                    f'the utterance does not contain argument {slot + 1} of {query.task}, "{query.arguments[slot]}"'
-                )
-                raise ExampleArgumentNotFoundError(detail, places=[Place("", detail)])
+        task, arity = utterance.query.task, len(utterance.query.arguments)
+        begins = {begin: (end, slot) for slot, spans in enumerate(utterance.mentions) for begin, end in spans}
+        elements: list[Element] = []
+        at = 0
+        while at < len(utterance.words):
+            end, element = begins.get(at, (at + 1, utterance.words[at]))
+            elements.append(element)
+            at = end
         if all(isinstance(element, int) or element in DETERMINERS for element in elements):
-            detail = f"the utterance has no word besides the arguments of {query.task}, so any command would match it"
+            detail = f"the utterance has no word besides the arguments of {task}, so any command would match it"
             raise ExampleTooGeneralError(detail, places=[Place("", detail)])
-        return cls(query.task, len(phrases), tuple(_drop_determiners(elements)))
+        return cls(task, arity, tuple(_drop_determiners(elements)))
+
+    @property
+    def said(self) -> tuple[Element, ...]:
+        """The wording with its slots numbered from left to right: two that say the same words are equal in this."""
+        order: dict[Slot, Slot] = {}
+        return tuple(e if isinstance(e, str) else order.setdefault(e, len(order)) for e in self.elements)
 
     @property
     def literal(self) -> int:
@@ -121,9 +118,9 @@ class TaughtTranslator:
     wordings: tuple[Wording, ...]
 
     @classmethod
-    def of(cls, examples: Iterable[tuple[str, ContextualQuery]]) -> TaughtTranslator:
-        """From utterances with their queries; raises as `Wording.of`."""
-        return cls(tuple(dict.fromkeys(Wording.of(utterance, query) for utterance, query in examples)))
+    def of(cls, utterances: Iterable[Utterance]) -> TaughtTranslator:
+        """From utterances; raises as `Wording.of`."""
+        return cls(tuple(dict.fromkeys(map(Wording.of, utterances))))
 
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """The queries of the wordings that match, the most literal wordings first.
@@ -144,21 +141,6 @@ class TaughtTranslator:
         best = [query for query, literal in found.items() if literal == max(found.values())]
         readings = [Translation(query, 1 / len(best) if query in best else 0.0) for query in found]
         return tuple(readings[:candidates])
-
-
-def _put_slot(elements: list[Element], phrase: Sequence[str], slot: Slot) -> bool:
-    """Replace every occurrence of the phrase by the slot, in place; whether there was one."""
-    found, at = False, 0
-    while at + len(phrase) <= len(elements):
-        if elements[at : at + len(phrase)] == list(phrase):
-            elements[at : at + len(phrase)] = [slot]
-            found = True
-        at += 1
-    return found
-
-
-def _without_determiner(phrase: Sequence[str]) -> Sequence[str]:
-    return phrase[1:] if len(phrase) > 1 and phrase[0] in DETERMINERS else phrase
 
 
 def _drop_determiners(elements: Sequence[Element]) -> Iterator[Element]:

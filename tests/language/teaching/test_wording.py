@@ -13,13 +13,18 @@ from models.language import (
     ExampleTooGeneralError,
     TaughtTranslator,
     TextTooLongError,
+    Utterance,
     Wording,
 )
-from models.queries import ContextualQuery, parse_query
+from models.queries import ContextualQuery, parse_task
+
+
+def said(utterance: str, query: str) -> Utterance:
+    return Utterance.of(utterance, parse_task(query))
 
 
 def reads(utterance: str, query: str, command: str) -> str | None:
-    found = TaughtTranslator.of([(utterance, parse_query(query))]).translate(command)
+    found = TaughtTranslator.of([Utterance.of(utterance, parse_task(query))]).translate(command)
     return str(found[0].query) if found else None
 
 
@@ -62,17 +67,17 @@ def test_reads_what_was_taught(utterance: str, query: str, command: str, expecte
 )
 def test_an_argument_that_is_not_said_is_refused(utterance: str, query: str) -> None:
     with pytest.raises(ExampleArgumentNotFoundError):
-        Wording.of(utterance, parse_query(query))
+        Wording.of(Utterance.of(utterance, parse_task(query)))
 
 
 def test_an_utterance_that_is_too_long_is_refused() -> None:
     with pytest.raises(TextTooLongError):
-        Wording.of("go " * 1000, parse_query("home()"))
+        Utterance.of("go " * 1000, parse_task("home()"))
 
 
 def test_the_most_literal_wording_is_read_first() -> None:
     translator = TaughtTranslator.of(
-        [("bring the ball", parse_query("bring(ball)")), ("bring the ball here", parse_query("bring_here(ball)"))]
+        [said("bring the ball", "bring(ball)"), said("bring the ball here", "bring_here(ball)")]
     )
     found = translator.translate("bring the cup here", candidates=5)
     assert [(str(t.query), t.confidence) for t in found] == [("bring_here(cup)", 1.0), ("bring(cup here)", 0.0)]
@@ -82,20 +87,18 @@ def test_the_most_literal_wording_is_read_first() -> None:
 @pytest.mark.parametrize(("utterance", "query"), [("kitchen", "go(kitchen)"), ("the ball, a box", "put(ball, box)")])
 def test_an_utterance_of_nothing_but_arguments_is_refused(utterance: str, query: str) -> None:
     with pytest.raises(ExampleTooGeneralError):
-        Wording.of(utterance, parse_query(query))
+        Wording.of(Utterance.of(utterance, parse_task(query)))
 
 
 def test_readings_of_equally_literal_wordings_share_the_confidence() -> None:
-    translator = TaughtTranslator.of(
-        [("tidy the kitchen", parse_query("clean(kitchen)")), ("tidy the ball", parse_query("stow(ball)"))]
-    )
+    translator = TaughtTranslator.of([said("tidy the kitchen", "clean(kitchen)"), said("tidy the ball", "stow(ball)")])
     found = translator.translate("tidy the cup", candidates=3)
     assert [(str(t.query), t.confidence) for t in found] == [("clean(cup)", 0.5), ("stow(cup)", 0.5)]
 
 
 def test_a_wording_of_many_slots_gives_up_in_time() -> None:
     slots = [f"w{number}" for number in range(16)]
-    wording = Wording.of(" ".join(slots) + " end", ContextualQuery("many", tuple(slots)))
+    wording = Wording.of(Utterance.of(" ".join(slots) + " end", ContextualQuery("many", tuple(slots))))
     started = time.monotonic()
     wording.match(["word"] * 200)
     assert time.monotonic() - started < 2
@@ -113,15 +116,15 @@ def test_any_phrases_fill_the_slots(first: str, second: str) -> None:
 
 @given(st.text(max_size=60))
 def test_any_command_is_read_or_not(text: str) -> None:
-    translator = TaughtTranslator.of([("put x in y", parse_query("put(x, y)"))])
+    translator = TaughtTranslator.of([said("put x in y", "put(x, y)")])
     assert len(translator.translate(text)) <= 1
 
 
 def test_many_wordings_do_not_slow_a_command() -> None:
     slots = [f"t{number}" for number in range(12)]
     query = ContextualQuery("evil", tuple(slots))
-    hard = [(" ".join([*slots, "end", f"x{number}"]), query) for number in range(500)]
-    translator = TaughtTranslator.of([*hard, ("put x in y", parse_query("put(x, y)"))])
+    hard = [Utterance.of(" ".join([*slots, "end", f"x{number}"]), query) for number in range(500)]
+    translator = TaughtTranslator.of([*hard, said("put x in y", "put(x, y)")])
     started = time.monotonic()
     assert translator.translate(" ".join(["word"] * 50)) == ()
     assert str(translator.translate("put the cup in the sink")[0].query) == "put(cup, sink)"

@@ -1,0 +1,123 @@
+"""What a text may say to someone who was taught: wordings as they were taught, what means the same, and the networks.
+
+Three sources give readings of a command. A wording that was taught is certain. A text that is near to the examples or
+the card of a taught task says it with a probability. The translator's networks know the tasks that they were trained
+on. The last two weigh against each other: each is believed as far as the other is in doubt.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from models.language.composition import ComposedTranslator
+from models.language.matching import Matcher, Shelf
+from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
+from models.language.teaching import TaughtTranslator
+from models.language.translation import BEAM_WIDTH, Translation, Translator
+from models.queries import Template
+from models.world import Environment
+
+MATCHED = 12
+"""Readings by nearness that are looked at: the environment may make sense of a later one only."""
+SURE = 0.995
+"""No network is believed more than this."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lessons:
+    """What was taught: the wordings of examples, and the shelf of tasks with the matcher that compares with them.
+
+    `functions` are the propositional functions that the template of a task needs. `own` are the tasks that the networks
+    know: they are on the shelf to be told apart from others, and are left to the networks.
+    """
+
+    wordings: TaughtTranslator
+    shelf: Shelf
+    matcher: Matcher
+    functions: Mapping[str, frozenset[str]]
+    own: frozenset[str] = frozenset()
+
+    def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
+        """See `Translator`: as it was taught, or else what means the same."""
+        return self.wordings.translate(text, candidates=candidates) or self.near(text, candidates=candidates)
+
+    def near(self, text: str, *, candidates: int, environment: Environment | None = None) -> tuple[Translation, ...]:
+        """What means the same as a task that was taught and that makes sense in the environment."""
+        there = None if environment is None else frozenset(environment.functions)
+
+        def fits(task: str) -> bool:
+            return there is None or self.functions[task] <= there
+
+        found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits)
+        return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hearing:
+    """A translator with lessons, and the templates of all tasks."""
+
+    translator: Translator
+    lessons: Lessons
+    template_of: Callable[[str], Template | None]
+
+    def readings(self, text: str, environment: Environment | None, *, candidates: int) -> tuple[Reading, ...]:
+        """Up to `candidates` readings of a command, best first; none when no task fits.
+
+        In an environment, what makes sense there comes first. Taught readings that make no sense give way to readings
+        that do: "go to the sphere", taught for picking up, does not keep "go to the kitchen" from being understood.
+
+        Raises:
+            TextTooLongError: the text is beyond the limits of a command.
+        """
+        wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
+        translator = self.translator
+        if isinstance(translator, ComposedTranslator):
+            translator = translator.knowing(self.lessons)
+        exact = self.lessons.wordings.translate(text, candidates=BEAM_WIDTH)
+        heard = translator.translate(text, candidates=wanted)
+        if not exact:
+            near = self.lessons.near(text, candidates=MATCHED, environment=environment)
+            heard = weighed(near, heard)
+        ranked = rank(text, heard, template_of=self.template_of, environment=environment)
+        taught = read(text, exact, template_of=self.template_of, environment=environment)
+        return merged(taught, ranked)[:candidates]
+
+
+def weighed(near: Sequence[Translation], heard: Sequence[Translation]) -> tuple[Translation, ...]:
+    """The readings of two sources together: the odds of each are lowered by how sure the other is."""
+    first, second = (min(SURE, sum(t.confidence for t in found)) for found in (near, heard))
+    if not near or not heard:
+        return (*near, *heard)
+    one, other = first * (1.0 - second), second * (1.0 - first)
+    scale = (first + second - first * second) / (one + other)  # of one of them being right at all
+    found: dict[object, Translation] = {}
+    for source, share, total in ((near, one * scale, first), (heard, other * scale, second)):
+        for translation in source:
+            part = translation.confidence / total * share
+            known = found.get(translation.query)
+            sure = part if known is None else part + known.confidence
+            found[translation.query] = replace(translation, confidence=min(1.0, sure))
+    return tuple(sorted(found.values(), key=lambda t: (-t.confidence, str(t.query))))
+
+
+def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
+    """The taught readings that make sense, then the others; just the learned ones where only those do.
+
+    A taught reading that takes a word for misspelt makes less sense than a learned one that takes all as said.
+    """
+    best = learned[0].weight if learned else SENSELESS
+    least = AMBIGUOUS if best == GROUNDED else SENSELESS
+    fitting = [reading for reading in taught if reading.weight >= least and reading.weight > SENSELESS]
+    if not fitting and best > SENSELESS:
+        return tuple(learned)
+    first = _shared(fitting or taught)
+    known = {reading.query for reading in first}
+    rest = [replace(r, confidence=0.0) if first else r for r in learned if r.query not in known]
+    return (*first, *rest)
+
+
+def _shared(readings: Sequence[Reading]) -> list[Reading]:
+    """The readings with confidences that add up to 1; those of no confidence share it when nothing else is left."""
+    total = sum(reading.confidence for reading in readings)
+    return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]

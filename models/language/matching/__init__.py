@@ -1,0 +1,5 @@
+"""Commands matched with taught tasks by what they mean: same task, other words."""
+
+from models.language.matching.matcher import Matcher, Shelf, TaughtTask
+
+__all__ = ["Matcher", "Shelf", "TaughtTask"]

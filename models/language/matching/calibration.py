@@ -1,0 +1,114 @@
+"""What turns nearness into probabilities that hold, from tasks that the network was not fitted to."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import permutations, product
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.language.matching.lessons import Lesson, Said
+from models.language.matching.model import MatchModel
+from models.language.matching.network import MatchNet
+from models.language.matching.training import Course, batch
+
+SHELVES, TASKS = 40, 30
+"""Shelves that are drawn, and tasks on each."""
+MOST_EXAMPLES = 5
+STEEPNESS = (8.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0)
+LESSER = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
+THRESHOLDS = tuple(step / 40 for step in range(8, 60))
+ROLES = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    """A text and the tasks of a shelf: nearness [K] to their examples and cards, and which is right, -1: none."""
+
+    examples: NDArray[np.float32]
+    cards: NDArray[np.float32]
+    right: int
+
+
+def calibrated(
+    network: MatchNet, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], *, seed: int
+) -> MatchModel:
+    """The network with the constants under which what is right in tasks that it never saw is likeliest.
+
+    The tasks with as many arguments as the text are those that compete, as in use.
+    """
+    generator = random.Random(seed)
+    trials = [trial for _ in range(SHELVES) for trial in _shelf(network, course, held_out, refused, generator)]
+    constants = max(
+        product(STEEPNESS, THRESHOLDS, LESSER),
+        key=lambda c: _likelihood(MatchModel(network, c[0], c[1], c[2], 1.0, {}), trials),
+    )
+    steepness, threshold, lesser = constants
+    return MatchModel(network, steepness, threshold, lesser, _role_temperature(network, course, held_out), {})
+
+
+def _likelihood(model: MatchModel, trials: Sequence[_Trial]) -> float:
+    total = 0.0
+    for trial in trials:
+        points = model.points(trial.examples, trial.cards)
+        mine = 0.0 if trial.right < 0 else points[trial.right]
+        total += mine - np.logaddexp(0.0, np.logaddexp.reduce(points))
+    return float(total)
+
+
+def _shelf(
+    network: MatchNet, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], generator: random.Random
+) -> Iterator[_Trial]:
+    """Texts with a shelf on which their tasks are or are not: half of the held-out ones, and tasks that were seen."""
+    shown = generator.sample(list(held_out), len(held_out) // 2)
+    kept = shown + generator.sample(list(course.lessons), TASKS - len(shown))
+    split = [_example_texts(lesson, generator) for lesson in kept]
+    examples = [_commands(network, course, taught) for taught, _ in split]
+    cards = [_commands(network, course, lesson.cards) for lesson in kept]
+    arities = [len(lesson.cards[0].mentions) for lesson in kept]
+    asked = [(text, number) for number, lesson in enumerate(shown) for text in split[number][1][:4]]
+    absent = [lesson for lesson in held_out if lesson not in shown]
+    asked += [(generator.choice(generator.choice(lesson.wordings)), -1) for lesson in absent]
+    asked += [(text, -1) for text in generator.choices(list(refused), k=len(shown))]
+    commands = _commands(network, course, [text for text, _ in asked])
+    for row, (text, right) in enumerate(asked):
+        fitting = [place for place, arity in enumerate(arities) if arity == len(text.mentions)]
+        near = [np.array([(commands[row] @ rows[place].T).max() for place in fitting]) for rows in (examples, cards)]
+        yield _Trial(near[0], near[1], fitting.index(right) if right >= 0 else -1)
+
+
+def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said], list[Said]]:
+    """Texts of a few wordings to teach with, and of the others to ask."""
+    groups = generator.sample(lesson.wordings, len(lesson.wordings))
+    count = generator.randint(1, MOST_EXAMPLES)
+    drawn = [generator.choice(group) for group in groups]
+    return drawn[:count], drawn[count:]
+
+
+@torch.inference_mode()
+def _commands(network: MatchNet, course: Course, texts: Sequence[Said]) -> NDArray[np.float32]:
+    vectors, free, _, _ = batch(texts, course)
+    found: NDArray[np.float32] = network.commands(vectors, free).numpy()
+    return found
+
+
+@torch.inference_mode()
+def _role_temperature(network: MatchNet, course: Course, held_out: Sequence[Lesson]) -> float:
+    """That under which the right order of mentions is likeliest, with one example."""
+    trials = []
+    for lesson in held_out:
+        count = len(lesson.cards[0].mentions)
+        if count < 2:
+            continue
+        for (first, *_), (second, *_) in zip(lesson.wordings, lesson.wordings[1:], strict=False):
+            one, other = (network.roles(course.vectors[t.words], t.mentions).numpy() for t in (first, second))
+            trials.append([float((one[list(order)] * other).sum()) for order in permutations(range(count))])
+
+    def likelihood(temperature: float) -> float:
+        return float(sum(p[0] / temperature - np.logaddexp.reduce(np.array(p) / temperature) for p in trials))
+
+    return max(ROLES, key=likelihood)

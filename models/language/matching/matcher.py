@@ -1,0 +1,266 @@
+"""Reads commands by comparing them with what was taught: examples of tasks, and the cards of tasks.
+
+Shapes: S words, V vectors of commands, R of roles, N examples and cards, M ways to see what is mentioned, K tasks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import permutations
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.language.encoder import MEANING, Encoder, encoder
+from models.language.matching.model import MatchModel, load_model
+from models.language.matching.network import ON, OUTSIDE
+from models.language.spans.decoding import best_sequences, log_total
+from models.language.spans.tags import Span
+from models.language.teaching.utterance import Utterance, plain
+from models.language.tokens import words
+from models.language.translation import Translation
+from models.queries import ContextualQuery
+
+Vectors = NDArray[np.float32]
+SEQUENCES = 6
+"""Ways to see what a text mentions that are looked at."""
+LEAST = 1e-3
+"""Readings less probable than this are not given."""
+MOST_MENTIONS = 5
+"""Texts with more mentions are not matched with their parts: the orders would be too many."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Known:
+    """What was read in an example or a card: vectors of the command, [V], and of the arguments' roles, [A, R]."""
+
+    command: Vectors
+    roles: Vectors
+
+    def to_bytes(self) -> bytes:
+        """In half precision: the command, then the roles."""
+        return np.concatenate([self.command, self.roles.ravel()]).astype("<f2").tobytes()
+
+    @classmethod
+    def from_bytes(cls, data: bytes, *, command: int, role: int) -> Self:
+        """From `to_bytes` of vectors of these sizes."""
+        numbers = np.frombuffer(data, "<f2").astype(np.float32)
+        return cls(numbers[:command], numbers[command:].reshape(-1, role))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TaughtTask:
+    """A task with what was read in its examples and in its cards, which say what it is for without an example."""
+
+    task: str
+    arity: int
+    examples: tuple[Known, ...]
+    cards: tuple[Known, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shelf:
+    """Tasks to compare with, as arrays."""
+
+    tasks: tuple[TaughtTask, ...]
+    _examples: Vectors = field(repr=False)  # [N, V]
+    _cards: Vectors = field(repr=False)
+    _of_example: NDArray[np.intp] = field(repr=False)  # [N], the task of each
+    _of_card: NDArray[np.intp] = field(repr=False)
+
+    @classmethod
+    def of(cls, tasks: Iterable[TaughtTask]) -> Self:
+        """Of some tasks."""
+        kept = tuple(tasks)
+        rows = [[known.command for known in task.examples] for task in kept]
+        cards = [[known.command for known in task.cards] for task in kept]
+        return cls(kept, _stacked(rows), _stacked(cards), _owners(rows), _owners(cards))
+
+    def nearness(self, commands: Vectors) -> tuple[Vectors, Vectors]:
+        """[M, K] of each command [M, V] to the nearest example of each task, and to its nearest card; -1 without."""
+        return tuple(  # type: ignore[return-value]
+            _nearest(commands, rows, owners, len(self.tasks))
+            for rows, owners in ((self._examples, self._of_example), (self._cards, self._of_card))
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Matcher:
+    """Reads texts, and compares them with a shelf."""
+
+    model: MatchModel
+    encoder: Encoder
+
+    @classmethod
+    def load(cls, folder: Path | None = None) -> Self:
+        """With the model of a folder, or the one that is shipped; raises WeightsError."""
+        return cls(load_model(folder), encoder())
+
+    def known(self, utterances: Sequence[Utterance]) -> list[Known]:
+        """What there is to compare with in utterances of which it is known what they mention."""
+        if not utterances:
+            return []
+        with torch.inference_mode():
+            vectors = self.encoder.read([utterance.words for utterance in utterances], layers=MEANING)
+            return [
+                Known(*self._known(vectors[row, : len(utterance.words)], utterance))
+                for row, utterance in enumerate(utterances)
+            ]
+
+    def _known(self, vectors: torch.Tensor, utterance: Utterance) -> tuple[Vectors, Vectors]:
+        network, count = self.model.network, len(utterance.words)
+        free = _free(count, [span for spans in utterance.mentions for span in spans])
+        command = network.commands(vectors[None], torch.tensor([free]))[0].numpy()
+        firsts = [spans[0] for spans in utterance.mentions]
+        if not firsts:
+            return command, np.zeros((0, network.config.role), np.float32)
+        return command, network.roles(vectors, firsts).numpy()
+
+    def match(
+        self, text: str, shelf: Shelf, *, candidates: int, fits: Callable[[str], bool] = bool
+    ) -> tuple[Translation, ...]:
+        """The queries of tasks on the shelf that a text may say, likeliest first, with their probabilities; tasks that
+        do not fit are passed over. Raises TextTooLongError.
+        """
+        said = words(text)
+        if not said or not shelf.tasks:
+            return ()
+        found: dict[ContextualQuery, float] = {}
+        for task, mentions, likely in self._tasks(said, shelf, fits):
+            for order, part in task.orders(mentions):
+                phrases = tuple(" ".join(plain(said[slice(*mentions.spans[place])])) for place in order)
+                query = ContextualQuery(task.task.task, phrases)
+                found[query] = found.get(query, 0.0) + likely * part
+        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
+        return tuple(Translation(q, min(1.0, found[q])) for q in ranked[:candidates] if found[q] >= LEAST)
+
+    def nearest(self, text: str, shelf: Shelf, *, count: int) -> tuple[tuple[str, float], ...]:
+        """The tasks on the shelf that are nearest to a text, with their nearness from -1 to 1."""
+        said = words(text)
+        if not said or not shelf.tasks:
+            return ()
+        commands = np.stack([seen.command for seen in self._seen(said)])
+        near = np.maximum(*shelf.nearness(commands)).max(axis=0)  # [K]
+        best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
+        return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
+
+    def _tasks(
+        self, said: tuple[str, ...], shelf: Shelf, fits: Callable[[str], bool]
+    ) -> Iterator[tuple[_Candidate, _Seen, float]]:
+        """Tasks with what the text mentions, and the probabilities of both together."""
+        seen = self._seen(said)
+        examples, cards = shelf.nearness(np.stack([way.command for way in seen]))
+        points = self.model.points(examples, cards)  # [M, K]
+        arities = np.array([task.arity for task in shelf.tasks])
+        fitting = np.array([fits(task.task) for task in shelf.tasks])
+        for row, way in enumerate(seen):
+            usable = fitting & (arities == len(way.spans))
+            odds = np.where(usable, np.exp(points[row]), 0.0)
+            total = 1.0 + odds.sum()  # 1 for none of them
+            for place in np.argsort(-odds, kind="stable")[:SEQUENCES]:
+                likely = float(way.probability * odds[place] / total)
+                if likely >= LEAST:
+                    yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
+
+    @torch.inference_mode()
+    def _seen(self, said: tuple[str, ...]) -> list[_Seen]:
+        """The likeliest ways to see what a text mentions."""
+        network = self.model.network
+        vectors = self.encoder.read([said], layers=MEANING)[0]  # [S, D]
+        emissions = network.tags(vectors[None])[0].double().numpy()
+        moves = (network.transition + network.allowed).double().numpy()
+        start = network.allowed_start.double().numpy()
+        total = log_total(emissions, moves, start)
+        ways: dict[tuple[Span, ...], float] = {}
+        for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES):
+            spans = _spans(said, tags)
+            ways[spans] = ways.get(spans, 0.0) + math.exp(min(0.0, points - total))
+        free = torch.tensor([_free(len(said), spans) for spans in ways])
+        commands = network.commands(vectors.expand(len(ways), -1, -1), free).numpy()
+        return [
+            _Seen(spans, share, command, self._roles(vectors, spans))
+            for (spans, share), command in zip(ways.items(), commands, strict=True)
+        ]
+
+    def _roles(self, vectors: torch.Tensor, spans: Sequence[Span]) -> Vectors:
+        if not spans:
+            return np.zeros((0, self.model.network.config.role), np.float32)
+        roles: Vectors = self.model.network.roles(vectors, spans).numpy()
+        return roles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Seen:
+    """A way to see what a text mentions: the mentions, its probability, and the vectors that follow from it."""
+
+    spans: tuple[Span, ...]
+    probability: float
+    command: Vectors  # [V]
+    roles: Vectors  # [mentions, R]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Candidate:
+    """A task that a text may say."""
+
+    task: TaughtTask
+    temperature: float
+
+    def orders(self, seen: _Seen) -> Iterator[tuple[tuple[int, ...], float]]:
+        """For each argument the mention that it is, in every order, with the probabilities of these."""
+        count = len(seen.spans)
+        orders = list(permutations(range(count))) if count <= MOST_MENTIONS else [tuple(range(count))]
+        known = [known.roles for known in (*self.task.examples, *self.task.cards) if len(known.roles) == count]
+        if len(orders) == 1 or not known:
+            yield orders[0], 1.0
+            return
+        points = [
+            max(float((seen.roles[list(order)] * roles).sum()) for roles in known) / self.temperature
+            for order in orders
+        ]
+        top = max(points)
+        odds = [math.exp(point - top) for point in points]
+        yield from ((order, odd / sum(odds)) for order, odd in zip(orders, odds, strict=True))
+
+
+def _spans(said: Sequence[str], tags: Sequence[int]) -> tuple[Span, ...]:
+    """The mentions that tags say, left to right; what is named twice in the same words counts once."""
+    spans: list[Span] = []
+    for place, tag in enumerate(tags):
+        if tag == ON and spans:
+            spans[-1] = (spans[-1][0], place + 1)
+        elif tag != OUTSIDE:
+            spans.append((place, place + 1))
+    first: dict[tuple[str, ...], Span] = {}
+    for span in spans:
+        first.setdefault(tuple(said[slice(*span)]), span)
+    return tuple(first.values())
+
+
+def _free(count: int, spans: Iterable[Span]) -> list[float]:
+    """1 for each word that names nothing, 0 for the others; all 1 where nothing else is said."""
+    free = [1.0] * count
+    for begin, end in spans:
+        free[begin:end] = [0.0] * (end - begin)
+    return free if any(free) else [1.0] * count
+
+
+def _stacked(rows: Sequence[Sequence[Vectors]]) -> Vectors:
+    flat = [row for group in rows for row in group]
+    return np.stack(flat) if flat else np.zeros((0, 0), np.float32)
+
+
+def _owners(rows: Sequence[Sequence[Vectors]]) -> NDArray[np.intp]:
+    return np.array([number for number, group in enumerate(rows) for _ in group], dtype=np.intp)
+
+
+def _nearest(commands: Vectors, rows: Vectors, owners: NDArray[np.intp], tasks: int) -> Vectors:
+    near = np.full((len(commands), tasks), -1.0, np.float32)
+    if len(rows):
+        np.maximum.at(near.T, owners, (commands @ rows.T).T)
+    return near

@@ -1,0 +1,95 @@
+"""A trained matching network on disk: `matching.safetensors` holds the tensors, `matching.json` what it takes to use
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
+from safetensors.torch import load as load_tensors
+
+from models.language.matching.network import MatchConfig, MatchNet
+from models.language.model_files import reading, write_model
+
+NAME = "matching"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MatchModel:
+    """A network with what makes probabilities of nearness.
+
+    Attributes:
+        steepness: of the logarithm of the odds that a task is meant, in the points of nearness.
+        threshold: points at which a task alone on the shelf is as likely to be meant as not.
+        lesser: weight of the lesser of the nearness to an example and to a card.
+        role_temperature: what the nearness of roles is divided by.
+        training: how it was made, for the record.
+    """
+
+    network: MatchNet
+    steepness: float
+    threshold: float
+    lesser: float
+    role_temperature: float
+    training: Mapping[str, str | int | float]
+
+    def points(self, examples: NDArray[np.float32], cards: NDArray[np.float32]) -> NDArray[np.float64]:
+        """The logarithms of the odds that tasks are meant rather than none, by nearness to their examples and cards."""
+        near = np.maximum(examples, cards) + self.lesser * np.minimum(examples, cards)
+        return self.steepness * (near.astype(np.float64) - self.threshold)
+
+
+class _Data(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _NetworkData(_Data):
+    vector: int = Field(ge=1, le=4096)
+    hidden: int = Field(ge=1, le=4096)
+    command: int = Field(ge=1, le=4096)
+    role: int = Field(ge=1, le=4096)
+    dropout: float = Field(ge=0, lt=1)
+
+
+class _ModelData(_Data):
+    steepness: float = Field(gt=0)
+    threshold: float
+    lesser: float = Field(ge=0, le=1)
+    role_temperature: float = Field(gt=0)
+    training: dict[str, str | int | float]
+    network: _NetworkData
+
+
+def save_model(model: MatchModel, folder: Path) -> None:
+    """Write both files, replacing what is there; the same model gives the same bytes."""
+    data = _ModelData(
+        network=_NetworkData(**asdict(model.network.config)),
+        steepness=model.steepness,
+        threshold=model.threshold,
+        lesser=model.lesser,
+        role_temperature=model.role_temperature,
+        training=dict(model.training),
+    )
+    write_model(model.network, data, folder, NAME)
+
+
+def load_model(folder: Path | None = None) -> MatchModel:
+    """Read a model; without a folder, the one that is shipped.
+
+    Raises:
+        WeightsError: a file is missing or damaged, or the two do not fit together.
+    """
+    place = files("models.language") / "weights" if folder is None else folder
+    with reading(NAME):
+        data = _ModelData.model_validate_json((place / f"{NAME}.json").read_text(encoding="utf-8"))
+        with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
+            network = MatchNet(MatchConfig(**data.network.model_dump()))
+        network.load_state_dict(load_tensors((place / f"{NAME}.safetensors").read_bytes()), assign=True)
+    return MatchModel(network.eval(), data.steepness, data.threshold, data.lesser, data.role_temperature, data.training)

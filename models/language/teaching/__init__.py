@@ -1,0 +1,16 @@
+"""Tasks that were taught by example: utterances, their wordings, and every command that says the same."""
+
+from models.language.teaching.arguments import find_arguments
+from models.language.teaching.utterance import ExampleArgumentNotFoundError, ExampleMarkError, Utterance, is_marked
+from models.language.teaching.wording import ExampleTooGeneralError, TaughtTranslator, Wording
+
+__all__ = [
+    "ExampleArgumentNotFoundError",
+    "ExampleMarkError",
+    "ExampleTooGeneralError",
+    "TaughtTranslator",
+    "Utterance",
+    "Wording",
+    "find_arguments",
+    "is_marked",
+]

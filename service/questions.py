@@ -1,0 +1,201 @@
+"""Asking back: what a command leaves open as one question with choices, and readings with a question answered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from models.errors import Place
+from models.language.reading import read
+from models.language.translation import Translation
+from models.queries import (
+    AmbiguousGroundingError,
+    Composition,
+    ContextualQuery,
+    Path,
+    Query,
+    Template,
+    parameter_kinds,
+    pointer_of,
+)
+from models.world import Environment, Symbol, UnknownObjectError, explain, speaks_of_others
+from service.errors import AnswerError
+from service.taught import Taught
+from service.understanding import Understanding, of_reading
+
+CLOSE = 0.6
+"""A reading that is as probable as this part of the likeliest may be meant as well."""
+MAX_CHOICES = 20
+"""Most choices of a question; what fits more things is asked without naming any."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What to ask back. `about` is `thing` (which thing an argument names) or `reading` (which query was meant).
+
+    `part` points to the task of the argument within the query, `argument` is its position from 1; both are of no
+    account for readings. `says` tells in English what each of the choices is, in their order.
+    """
+
+    about: Literal["thing", "reading"]
+    text: str
+    choices: tuple[str, ...]
+    says: tuple[str, ...]
+    part: str = ""
+    argument: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One of the choices of a question; `part` and `argument` as in the question."""
+
+    choice: str
+    part: str = ""
+    argument: int | None = None
+
+
+def question_of(readings: Sequence[Understanding], taught: Taught, environment: Environment | None) -> Question | None:
+    """What has to be asked before the readings, best first, can be acted on; None when nothing is open.
+
+    Asked is, in this order: which of the things that a phrase fits, or which thing is called by an unknown word where
+    all other arguments are known; and which of two readings, when the second is nearly as probable.
+    """
+    if not readings or environment is None:
+        return None
+    best = readings[0]
+    if isinstance(best.refusal, AmbiguousGroundingError):
+        return _which(best.refusal, environment)
+    if isinstance(best.refusal, UnknownObjectError):
+        return _called(best, best.refusal, taught, environment)
+    return _either(readings, environment)
+
+
+def answered(
+    text: str,
+    readings: Sequence[Understanding],
+    answers: Sequence[Answer],
+    taught: Taught,
+    environment: Environment | None,
+) -> tuple[Understanding, ...]:
+    """The reading that is left when the questions are answered one after the other.
+
+    Raises:
+        AnswerError: an answer is not one to the question that is asked then; the place names it.
+    """
+    left = tuple(readings)
+    for number, answer in enumerate(answers):
+        question = question_of(left, taught, environment)
+        if question is None:
+            raise _wrong(number, "", "nothing is asked here")
+        if answer.choice not in question.choices:
+            raise _wrong(number, "/choice", f'"{answer.choice}" is none of the choices: {", ".join(question.choices)}')
+        if question.about == "reading":
+            left = tuple(reading for reading in left if str(reading.query) == answer.choice)
+            continue
+        if (answer.part, answer.argument) != (question.part, question.argument):
+            raise _wrong(number, "/argument", f'asked is argument {question.argument} of the part "{question.part}"')
+        query = left[0].query
+        assert query is not None
+        named = _with(query, answer.part, answer.argument or 0, answer.choice)
+        left = (_reread(text, replace(left[0], query=named), taught, environment),)
+    return left
+
+
+def _which(refusal: AmbiguousGroundingError, environment: Environment) -> Question:
+    return Question(
+        "thing",
+        f"which {refusal.phrase}?",
+        refusal.choices,
+        tuple(_description(candidate.symbol, environment) for candidate in refusal.candidates),
+        refusal.places[0].pointer.rpartition("/arguments/")[0] if refusal.places else "",
+        refusal.position,
+    )
+
+
+def _called(
+    reading: Understanding, refusal: UnknownObjectError, taught: Taught, environment: Environment
+) -> Question | None:
+    """What an unknown word means, if any thing in its place makes sense of the reading."""
+    part, found, place = refusal.places[0].pointer.rpartition("/arguments/") if refusal.places else ("", "", "")
+    task = _task(reading.query, part) if found and reading.query is not None else None
+    template = None if task is None else taught.template(task.task)
+    if task is None or template is None or reading.query is None:
+        return None
+    argument = int(place) + 1
+    if speaks_of_others(task.arguments[argument - 1], environment):
+        return None  # every word is known; there is just no such thing
+    choices, says = [], []
+    for symbol in _things(template, argument, environment):
+        named = replace(reading, query=_with(reading.query, part, argument, symbol.name))
+        if _reread(task.arguments[argument - 1], named, taught, environment).meaning is not None:
+            choices.append(symbol.name)
+            says.append(_description(symbol, environment))
+    if not choices:
+        return None
+    return Question("thing", f'what is "{task.arguments[argument - 1]}"?', tuple(choices), tuple(says), part, argument)
+
+
+def _either(readings: Sequence[Understanding], environment: Environment) -> Question | None:
+    """Which of the readings that are nearly as probable as the first and mean something else."""
+    best = readings[0]
+    if best.meaning is None:
+        return None
+    formulas = {best.meaning.formula: best}
+    for reading in readings[1:]:
+        if reading.meaning is not None and reading.confidence >= CLOSE * best.confidence > 0:
+            formulas.setdefault(reading.meaning.formula, reading)
+    if len(formulas) < 2 or any(reading.query is None for reading in formulas.values()):
+        return None
+    says = tuple(explain(formula, environment) for formula in formulas)
+    if len(set(says)) < 2:
+        return None
+    choices = tuple(str(reading.query) for reading in formulas.values())
+    return Question("reading", f"do you mean: {'; or: '.join(says)}?", choices, says)
+
+
+def _things(template: Template, argument: int, environment: Environment) -> list[Symbol]:
+    """What may be an argument, of the kinds it was taught with if these are known; nothing if it is too much."""
+    taught = template.taught[argument - 1] if template.taught else frozenset()
+    kinds = taught or parameter_kinds(template.formula, environment, template.arity)[argument - 1]
+    symbols = [symbol for symbol in environment.vocabulary.symbols() if symbol.kind in kinds]
+    return symbols if len(symbols) <= MAX_CHOICES else []
+
+
+def _description(symbol: Symbol, environment: Environment) -> str:
+    """The name, the class, and what never changes of it: "cylinder: a toy, red, small"."""
+    is_object = environment.vocabulary.is_object
+    static = environment.vocabulary.static.get(symbol, {}).values()
+    values = [value.name for value in static if value.name != symbol.name and not is_object(value)]
+    return ", ".join([f"{symbol.name}: a {symbol.kind}", *values]).replace("_", " ")
+
+
+def _reread(text: str, reading: Understanding, taught: Taught, environment: Environment | None) -> Understanding:
+    """The same reading of its query as it is now."""
+    assert reading.query is not None
+    said = [Translation(reading.query, reading.confidence)]
+    (found,) = read(text, said, template_of=taught.template, environment=environment)
+    return of_reading(found, taught.stored)
+
+
+def _task(query: Query, part: str) -> ContextualQuery | None:
+    return next((task for path, task in query.tasks if pointer_of(path) == part), None)
+
+
+def _with(query: Query, part: str, argument: int, phrase: str) -> Query:
+    """The query with another phrase as an argument of its task at a pointer."""
+    return _replaced(query, next(path for path, _ in query.tasks if pointer_of(path) == part), argument, phrase)
+
+
+def _replaced(query: Query, path: Path, argument: int, phrase: str) -> Query:
+    if isinstance(query, ContextualQuery):
+        arguments = list(query.arguments)
+        arguments[argument - 1] = phrase
+        return replace(query, arguments=tuple(arguments))
+    operands: list[Query] = list(query.operands)
+    operands[path[0]] = _replaced(operands[path[0]], path[1:], argument, phrase)
+    return Composition(query.operator, tuple(operands))
+
+
+def _wrong(number: int, member: str, detail: str) -> AnswerError:
+    return AnswerError(detail, places=[Place(f"/answers/{number}{member}", detail)])
