@@ -19,7 +19,7 @@ from models.queries import (
     parameter_kinds,
     pointer_of,
 )
-from models.world import Environment, Symbol, UnknownObjectError, explain
+from models.world import Environment, Symbol, UnknownObjectError, explain, speaks_of_others
 from service.errors import AnswerError
 from service.taught import Taught
 from service.understanding import Understanding, of_reading
@@ -123,6 +123,8 @@ def _called(
     if task is None or template is None or reading.query is None:
         return None
     argument = int(place) + 1
+    if speaks_of_others(task.arguments[argument - 1], environment):
+        return None  # every word is known; there is just no such thing
     choices, says = [], []
     for symbol in _things(template, argument, environment):
         named = replace(reading, query=_with(reading.query, part, argument, symbol.name))

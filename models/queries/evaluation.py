@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from models.errors import CqltlError, Place
@@ -55,32 +55,31 @@ def evaluate_query(query: Query, ground: Callable[[ContextualQuery], GroundedTas
         raise doubt
     agreeing = agreed(query, tasks)
     bindings = tuple((path, binding) for path, task in agreeing.items() for binding in task.bindings)
-    parts: dict[Path, Formula] = {}
-    formula = _formula(query, agreeing, (), MAX_COMBINATIONS, parts)
-    return GroundedQuery(query, formula, bindings, tuple(parts.items()))
+    parts = {path: _formula(part, agreeing, path, MAX_COMBINATIONS) for path, part in _parts(query, ())}
+    return GroundedQuery(query, parts[()], bindings, tuple(parts.items()))
 
 
-def _formula(
-    query: Query, tasks: Mapping[Path, GroundedTask], path: Path, most: int, parts: dict[Path, Formula]
-) -> Formula:
-    """The formula of the part at a path, with at most so many choices of things that its tasks share; it is noted, as
-    are those of its parts.
-    """
+def _parts(query: Query, path: Path) -> Iterator[tuple[Path, Query]]:
+    """A query and all its parts with their paths, the whole before its parts."""
+    yield path, query
+    if not isinstance(query, ContextualQuery):
+        for place, operand in enumerate(query.operands):
+            yield from _parts(operand, (*path, place))
+
+
+def _formula(query: Query, tasks: Mapping[Path, GroundedTask], path: Path, most: int) -> Formula:
+    """The formula of the part at a path, with at most so many choices of things that its tasks share."""
     if isinstance(query, ContextualQuery):
-        parts[path] = tasks[path].formula
-        return parts[path]
-    shared = choices(query, tasks, path)
-    operands = [_formula(operand, tasks, (*path, place), most, parts) for place, operand in enumerate(query.operands)]
-    if shared is not None:
+        return tasks[path].formula
+    if (shared := choices(query, tasks, path)) is not None:
         quantifier, chosen = shared
         if len(chosen) > most:
             raise FormulaTooLargeError(f"{query} has more than {MAX_COMBINATIONS} combinations of things")
         join = conjunction if quantifier is Quantifier.ALL else disjunction
-        parts[path] = join(*(_formula(query, choice, path, most // len(chosen), {}) for choice in chosen))
-        return parts[path]
+        return join(*(_formula(query, choice, path, most // len(chosen)) for choice in chosen))
+    operands = [_formula(operand, tasks, (*path, place), most) for place, operand in enumerate(query.operands)]
     try:
-        parts[path] = compose(query.operator, operands)
-        return parts[path]
+        return compose(query.operator, operands)
     except CompositionError as error:
         detail = f"{query}: {error.detail}"
         raise CompositionError(detail, places=[Place(pointer_of(path), detail)]) from None

@@ -16,8 +16,9 @@ from models.queries.contextual_query import Composition, ContextualQuery, Operat
 from models.queries.errors import ExplanationError
 from models.queries.evaluation import GroundedQuery, Path
 from models.queries.template import Binding
-from models.world import Environment
+from models.world import Environment, Quantifier
 from models.world.explanation import Speaker
+from models.world.names import listing
 from models.world.phrases import Level, Said, cut, joined, joins, readable
 from models.world.sequences import eventuality, steps_of
 from models.world.wording import fill, needs_article, spoken_symbol, without_article
@@ -136,10 +137,15 @@ def _filled(words: str, task: ContextualQuery, bindings: Sequence[Binding], envi
 
 
 def _bound(binding: Binding, environment: Environment) -> tuple[str, bool]:
-    """What an argument was bound to, and whether it takes an article."""
-    symbol = binding.candidate.symbol
-    spoken = spoken_symbol(symbol, environment.vocabulary)
-    return spoken, needs_article(symbol, spoken, environment.vocabulary)
+    """What an argument was bound to, and whether it takes an article; of several things the others have theirs."""
+    vocabulary = environment.vocabulary
+    names = []
+    for candidate in binding.candidates:
+        spoken = spoken_symbol(candidate.symbol, vocabulary)
+        names.append((spoken, needs_article(candidate.symbol, spoken, vocabulary)))
+    (first, article), *others = names
+    said = [first, *(f"the {name}" if needed else name for name, needed in others)]
+    return listing(said, "and" if binding.quantifier is Quantifier.ALL else "or"), article
 
 
 def _as_said(phrase: str) -> tuple[str, bool]:

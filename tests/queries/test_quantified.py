@@ -17,6 +17,7 @@ from models.queries import (
     Template,
     evaluate,
     evaluate_query,
+    explain_query,
     learn,
     parse_query,
 )
@@ -160,6 +161,17 @@ def test_phrases_go_by_the_state_of_the_environment() -> None:
 def test_refusals(query: str, refusal: type[Exception], says: str) -> None:
     with pytest.raises(refusal, match=says):
         grounded(query)
+
+
+def test_words_of_a_task_name_all_that_is_meant() -> None:
+    words = {"pickup": "the robot gets {1}", "keep": "{1} stays in {2}"}
+
+    def said(query: str) -> str:
+        return explain_query(grounded(query), words, ENVIRONMENT).explanation
+
+    assert said("pickup(any red toy)") == "the robot gets the red ball or the cube"
+    assert said("pickup(both boxes)") == "the robot gets the box and the crate"
+    assert said("keep(the cube, any box)") == "the cube stays in the box or the crate"
 
 
 def test_what_tasks_share_is_what_all_of_them_can_be_about() -> None:

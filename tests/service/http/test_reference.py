@@ -15,7 +15,9 @@ def post_ground(client: httpx.Client, query: str, **more: object) -> httpx.Respo
 def test_ground_shows_the_quantifier_and_all_things(client: httpx.Client) -> None:
     answer = post_ground(client, "pickup(any toy in the bedroom)").json()
     assert answer["ltl"] == "F holding(sphere) | F holding(bag)"
-    assert answer["explanation"] == ("eventually the robot is holding sphere or eventually the robot is holding bag")
+    assert answer["explanation"] == (
+        "eventually the robot is holding the sphere, or eventually the robot is holding the bag"
+    )
     first, second = ({"name": name, "kind": "toy", "reason": "a toy, in bedroom"} for name in ("sphere", "bag"))
     assert answer["bindings"] == [
         {
@@ -79,7 +81,10 @@ def test_a_taught_utterance_takes_such_phrases(client: httpx.Client) -> None:
     }
     assert translated("hoist all the toys in the bedroom up")["ltl"] == "F holding(sphere) & F holding(bag)"
     assert translated("hoist the smaller toy in the bedroom up")["ltl"] == "F holding(sphere)"
-    assert translated("hoist the toy in the kitchen up", state={"orange": {"in": "box"}})["ltl"] is None
+    gone = {"text": "hoist the toy in the kitchen up", "environment": "toys", "state": {"orange": {"in": "box"}}}
+    answer = client.post("/translate", json=gone).json()
+    assert (answer["ltl"], answer["question"]) == (None, None), "all words are known: there is no use in asking for one"
+    assert 'fits "toy in the kitchen"' in answer["issues"][0]["detail"]
     assert translated("hoist a toy up")["outcome"] == "ambiguous"
 
 
