@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TypeVar
@@ -17,7 +17,7 @@ from models.queries import Example, Template, learn, parse_task
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
-from service.store import StoredExample, StoredPair, StoredTemplate
+from service.store import StoredExample, StoredPair, StoredTemplate, Transaction
 from service.worker import ReviewJob, run_review
 
 T = TypeVar("T")
@@ -45,10 +45,18 @@ def read_template(stored: StoredTemplate) -> Template:
     return Template(stored.task, parse(stored.template), parse(stored.lifted), kinds, taught)
 
 
-async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemplate, bool]:
+Note = Callable[[Transaction, StoredTemplate, bool], None]
+"""What is done in the transaction that stores a template, with whether its task is new."""
+
+
+def _no_note(_transaction: Transaction, _stored: StoredTemplate, _new: bool) -> None:
+    pass
+
+
+async def learn_template(services: Services, lesson: Lesson, *, note: Note = _no_note) -> tuple[StoredTemplate, bool]:
     """Derive the template, review it, and store it; the flag says whether the task is new.
 
-    Learning the same again stores nothing new but pairs and utterances not seen before.
+    Learning the same again stores nothing new but pairs and utterances not seen before. What `note` raises undoes all.
 
     Raises:
         TemplateConflictError: the task has another template and `lesson.replace` is not set.
@@ -60,7 +68,7 @@ async def learn_template(services: Services, lesson: Lesson) -> tuple[StoredTemp
         warnings = await services.workers.check(run_review, job, timeout_s=services.settings.logic_timeout_s)
     except (OutOfTimeError, FormulaTooLargeError) as error:
         warnings = (f"the template was not checked for a simpler form: {error.detail}",)
-    return await run_sync(_keep, services, lesson, template, warnings)
+    return await run_sync(_keep, services, lesson, template, warnings, note)
 
 
 def _derive(services: Services, lesson: Lesson) -> tuple[LoadedEnvironment, Template]:
@@ -94,7 +102,7 @@ def _read_pair(query: str, ltl: str, pointer: str) -> Example:
 
 
 def _keep(
-    services: Services, lesson: Lesson, template: Template, warnings: tuple[str, ...]
+    services: Services, lesson: Lesson, template: Template, warnings: tuple[str, ...], note: Note
 ) -> tuple[StoredTemplate, bool]:
     pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
     pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
@@ -125,6 +133,7 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
+        note(transaction, kept, known is None)
     return kept, known is None
 
 

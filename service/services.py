@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,6 +13,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
+from service.jobs import Executor
 from service.settings import Settings
 from service.store import Store, StoredPolicy
 from service.translators import Translators
@@ -35,12 +37,25 @@ class LoadedEnvironment:
 
 
 class Services:
-    """The store, the worker processes and the translators, with small caches of what was read from the store."""
+    """The store, the worker processes, what makes plans, and the translators, with small caches of what was read from
+    the store. `closing` is set when the server stops.
+    """
 
-    def __init__(self, *, settings: Settings, store: Store, workers: Workers, translators: Translators) -> None:
+    def __init__(
+        self,
+        *,
+        settings: Settings,
+        store: Store,
+        workers: Workers,
+        jobs: Executor,
+        translators: Translators,
+        closing: threading.Event,
+    ) -> None:
         self.settings = settings
         self.store = store
         self.workers = workers
+        self.jobs = jobs
+        self.closing = closing
         self.translators = translators
         self._policy = lru_cache(maxsize=16)(self._read_policy)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)

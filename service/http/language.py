@@ -8,6 +8,7 @@ from fastapi import APIRouter, Response
 from models.logic import to_text as formula_text
 from models.world import explain
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
+from service.http.idempotency import SLUGS, AnsweredMeanwhile, KeyHeader, keeping, kept_response, once_of
 from service.http.schemas import (
     BatchRequest,
     BatchResponse,
@@ -21,6 +22,7 @@ from service.http.schemas import (
 from service.http.views import bindings_out, location, query_in, query_out, template_out, translated_out
 from service.lessons import Lesson, learn_template
 from service.pipeline import ground, translate
+from service.store import StoredTemplate
 
 router = APIRouter(tags=["language"])
 
@@ -74,6 +76,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
         },
         **refusals(
             *BODY,
+            *SLUGS,
             "unknown-environment",
             "template-conflict",
             "formula-syntax",
@@ -93,8 +96,13 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
         ),
     },
 )
-async def post_learn(body: LearnRequest, services: ServicesDep, response: Response) -> TemplateOut:
+async def post_learn(
+    body: LearnRequest, services: ServicesDep, response: Response, idempotency_key: KeyHeader = None
+) -> TemplateOut:
     """Learn the template of a task class from one contextual query and its grounded LTL."""
+    once = once_of("learn", idempotency_key, body)
+    if (before := await kept_response(services, once)) is not None:
+        return before  # type: ignore[return-value]  # FastAPI passes responses on
     lesson = Lesson(
         query=body.contextual_query,
         ltl=body.ltl,
@@ -103,10 +111,17 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
         examples=tuple(body.examples),
         replace=body.replace,
     )
-    stored, created = await learn_template(services, lesson)
+    try:
+        stored, created = await learn_template(services, lesson, note=keeping(once, _learned))
+    except AnsweredMeanwhile:
+        return await kept_response(services, once)  # type: ignore[return-value]
     response.status_code = 201 if created else 200
     response.headers["Location"] = location("templates", stored.task)
     return template_out(stored)
+
+
+def _learned(stored: StoredTemplate, created: bool) -> tuple[int, str, TemplateOut]:
+    return 201 if created else 200, location("templates", stored.task), template_out(stored)
 
 
 @router.post(

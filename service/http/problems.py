@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
 from models.source import locate
+from service.refusals import refusal_data
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:cqltl:problem:"
@@ -34,6 +35,8 @@ STATUS: dict[str, int] = {
     "unknown-environment": 404,
     "unknown-template": 404,
     "unknown-policy": 404,
+    "unknown-job": 404,
+    "idempotency-key-reused": 422,
     "environment-exists": 409,
     "template-conflict": 409,
     # formulas and queries
@@ -64,8 +67,10 @@ STATUS: dict[str, int] = {
     "device-unavailable": 422,
     "drawing-too-large": 422,
     "out-of-time": 422,
+    "out-of-memory": 422,
     # the service
     "overloaded": 503,
+    "worker-died": 503,
     "not-ready": 503,
     "spot-missing": 503,
 }
@@ -95,13 +100,24 @@ class Problem(BaseModel):
     choices: list[str] | None = Field(None, description="What an ambiguous phrase could mean.")
 
 
+def problem_of(data: Mapping[str, Any]) -> Problem:
+    """A problem of `service.refusals.refusal_data`; its status is that of its slug unless it is given."""
+    slug, members = data["slug"], {name: value for name, value in data.items() if name != "slug"}
+    return Problem.model_validate(
+        {"type": TYPE_PREFIX + slug, "title": slug.replace("-", " "), "status": STATUS[slug], **members}
+    )
+
+
+def response_of(problem: Problem) -> JSONResponse:
+    """The response that says it."""
+    headers = {"Retry-After": "1"} if problem.status == 503 else None
+    content = problem.model_dump(exclude_none=True)
+    return JSONResponse(content, status_code=problem.status, headers=headers, media_type=MEDIA_TYPE)
+
+
 def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
     """The response for a problem; `members` are further members of `Problem`."""
-    status = members.pop("status", STATUS[slug])
-    problem = Problem(type=TYPE_PREFIX + slug, title=slug.replace("-", " "), status=status, detail=detail, **members)
-    headers = {"Retry-After": "1"} if status == 503 else None
-    content = problem.model_dump(exclude_none=True)
-    return JSONResponse(content, status_code=status, headers=headers, media_type=MEDIA_TYPE)
+    return response_of(problem_of({"slug": slug, "detail": detail, **members}))
 
 
 def install(app: FastAPI) -> None:
@@ -115,13 +131,7 @@ def install(app: FastAPI) -> None:
 
 def _refused(_request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, CqltlError)
-    members: dict[str, Any] = {
-        "errors": [ErrorPlace(pointer=place.pointer, detail=place.detail) for place in error.places]
-    }
-    members.update({name: getattr(error, name) for name in ("line", "column", "caret") if hasattr(error, name)})
-    if hasattr(error, "choices"):
-        members["choices"] = list(error.choices)
-    return problem_response(error.slug, error.detail, **members)
+    return response_of(problem_of(refusal_data(error)))
 
 
 def _invalid(request: Request, error: Exception) -> JSONResponse:

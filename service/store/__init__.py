@@ -1,16 +1,25 @@
-"""The store: templates, environments and policies in a SQL database."""
+"""The store: templates, environments, policies and jobs in a SQL database."""
 
+from service.store.answers import AnswerRepository, KeptAnswer, Once
 from service.store.environments import EnvironmentRepository, StoredEnvironment
+from service.store.jobs import JobRepository, JobState, NewJob, StoredJob
 from service.store.policies import PolicyRepository, StoredPolicy
 from service.store.store import Store, Transaction
 from service.store.templates import StoredExample, StoredPair, StoredTemplate, TemplateRepository
 
 __all__ = [
+    "AnswerRepository",
     "EnvironmentRepository",
+    "JobRepository",
+    "JobState",
+    "KeptAnswer",
+    "NewJob",
+    "Once",
     "PolicyRepository",
     "Store",
     "StoredEnvironment",
     "StoredExample",
+    "StoredJob",
     "StoredPair",
     "StoredPolicy",
     "StoredTemplate",

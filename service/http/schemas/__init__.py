@@ -2,6 +2,7 @@
 
 from service.http.schemas.common import BindingOut, ContextualQueryTree, Health, Request
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
+from service.http.schemas.jobs import JobEvent, JobList, JobOut, JobProgress, JobRow, JobTiming
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
@@ -59,6 +60,12 @@ __all__ = [
     "GroundRequest",
     "GroundResponse",
     "Health",
+    "JobEvent",
+    "JobList",
+    "JobOut",
+    "JobProgress",
+    "JobRow",
+    "JobTiming",
     "LearnRequest",
     "ModelSize",
     "PairIn",
