@@ -27,6 +27,7 @@ from service.seeds import seed
 from service.services import Services
 from service.settings import Settings
 from service.store import Store
+from service.store.engine import is_postgresql
 from service.store.migrate import migrate
 from service.translators import DEFAULT, Translators
 from service.understanding import understand
@@ -78,7 +79,7 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         await run_sync(translators.queries, DEFAULT)
         await tasks[0]
         store = Store(settings.url)
-        executor = EmbeddedExecutor(store, workers, settings)
+        executor = _executor(settings, store, workers, queue=warm)
         services = Services(
             settings=settings,
             store=store,
@@ -100,6 +101,15 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         await run_sync(workers.stop)
         if store is not None:
             store.close()
+
+
+def _executor(settings: Settings, store: Store, workers: Workers, *, queue: bool) -> Executor:
+    """On PostgreSQL the workers plan that are there for it, unless the app is for a single request."""
+    if not (queue and is_postgresql(settings.url)):
+        return EmbeddedExecutor(store, workers, settings)
+    from service.jobs.queue import QueueExecutor
+
+    return QueueExecutor(store, settings)
 
 
 def _warm(services: Services) -> None:

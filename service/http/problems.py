@@ -11,7 +11,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import DataError, OperationalError
 from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
@@ -126,6 +126,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(OperationalError, _store_unavailable)
+    app.add_exception_handler(DataError, _not_storable)
     app.add_exception_handler(Exception, _internal)
 
 
@@ -190,6 +191,11 @@ def _http_error(_request: Request, error: Exception) -> JSONResponse:
 def _store_unavailable(request: Request, error: Exception) -> JSONResponse:
     _log.warning("%s %s: the store does not answer: %s", request.method, request.url.path, error)
     return problem_response("not-ready", "the store does not answer, or is locked by another writer; try again")
+
+
+def _not_storable(_request: Request, _error: Exception) -> JSONResponse:
+    """PostgreSQL's texts hold everything but U+0000."""
+    return problem_response("validation", "the request has a character that cannot be stored, such as U+0000")
 
 
 def _internal(request: Request, error: Exception) -> JSONResponse:

@@ -135,6 +135,8 @@ class EmbeddedExecutor(Executor):
                     forget_at = time.monotonic() + FORGET_S
             except SQLAlchemyError as error:
                 _log.warning("the store does not answer: %s", error)
+            except Exception:  # jobs of others must not wait for what is wrong with one
+                _log.exception("jobs could not be looked after")
             await asyncio.sleep(CLAIM_S)
 
     async def _claim(self) -> None:

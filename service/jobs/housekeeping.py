@@ -25,4 +25,5 @@ def forget(store: Store, settings: Settings) -> None:
     """Forget jobs and idempotency keys that have been kept as long as they are."""
     with store.write(exclusive=False) as transaction:
         transaction.answers.purge(older_s=settings.idempotency_s)
-        transaction.jobs.purge(ended_s=settings.job_retention_s, unaccepted_s=settings.idempotency_s)
+        kept_s = max(settings.job_retention_s, settings.idempotency_s)  # a key may ask for any
+        transaction.jobs.purge(ended_s=kept_s, unaccepted_s=settings.idempotency_s)

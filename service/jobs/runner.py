@@ -8,7 +8,7 @@ import logging
 import math
 import time
 import uuid
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any, TypeVar
@@ -27,7 +27,7 @@ from service.worker.records import answer_text
 
 T = TypeVar("T")
 
-TICK_S = 0.2
+TICK_S = 0.1
 """How often it is looked whether jobs were cancelled."""
 
 RENEWALS = 10
@@ -86,7 +86,12 @@ class JobRunner:
 
     def run(self, job: StoredJob) -> None:
         """Run a job that this process has just claimed."""
-        commission = Commission.of(job)
+        try:
+            commission = Commission.of(job)
+        except Exception:
+            _log.exception("job %s cannot be read", job.id)
+            self._spawn(self._give_up(job.id))
+            return
         left = job.deadline - time.time()
         self.follow(job.id, commission, self.begin(commission, always=True), deadline_s=left, running=False)
 
@@ -104,8 +109,8 @@ class JobRunner:
         if job_id in self._followed:
             self._followed[job_id].call.cancel()
 
-    async def ended(self, job_id: str, within_s: float) -> None:
-        """Wait for a job of this process to end, so long at most."""
+    async def ended(self, job_id: str, within_s: float | None) -> None:
+        """Wait for a job of this process to end, so long at most, or as long as it takes."""
         if job_id in self._followed:
             with suppress(TimeoutError):
                 await asyncio.wait_for(self._followed[job_id].ended.wait(), within_s)
@@ -129,6 +134,10 @@ class JobRunner:
         finally:
             del self._followed[job_id]
             followed.ended.set()
+
+    async def _give_up(self, job_id: str) -> None:
+        """End a job that would fail like this wherever it is run."""
+        await self._written(lambda: self._fail(job_id, json.dumps(failure_data())))
 
     async def _end_of(self, job_id: str, followed: _Followed) -> Callable[[], None] | None:
         """What writes the end of a job to the store; None where it is not for this process to say."""
@@ -174,8 +183,9 @@ class JobRunner:
             if not self._followed:
                 continue
             try:
-                for job_id in await self.blocking(self._look):
+                for job_id in await self.blocking(self._lost):
                     self.drop(job_id)
+                await self.blocking(self._renew_leases)
             except SQLAlchemyError as error:
                 _log.warning("the store does not answer: %s", error)
             now = time.monotonic()
@@ -184,16 +194,17 @@ class JobRunner:
                 if followed.overdue or now > followed.renewed_at + SAFETY * self.lease_s:
                     followed.call.cancel()
 
-    def _look(self) -> Sequence[str]:
+    def _lost(self) -> set[str]:
         """The jobs that are not this process's any more."""
         with self._store.read() as transaction:
-            lost = transaction.jobs.lost(self.owner, self.ids)
+            return transaction.jobs.lost(self.owner, self.ids)
+
+    def _renew_leases(self) -> None:
         now = time.monotonic()
         due = [
             (job_id, followed)
             for job_id, followed in list(self._followed.items())
-            if job_id not in lost
-            and (now > followed.renewed_at + self.lease_s / RENEWALS or followed.call.started != followed.told_running)
+            if now > followed.renewed_at + self.lease_s / RENEWALS or followed.call.started != followed.told_running
         ]
         if due:
             with self._store.write(exclusive=False) as transaction:
@@ -201,7 +212,6 @@ class JobRunner:
                     self._renew(transaction.jobs.renew, job_id, followed)
             for _, followed in due:
                 followed.renewed_at = now
-        return list(lost)
 
     def _renew(self, renew: Callable[..., bool], job_id: str, followed: _Followed) -> None:
         running = followed.call.started

@@ -43,5 +43,5 @@ def lock_writers(connection: Connection) -> None:
 def insert_new(connection: Connection, table: Table, values: Mapping[str, Any]) -> bool:
     """Insert a row unless its primary key is there already; whether it was inserted."""
     dialect = sqlite if connection.dialect.name == "sqlite" else postgresql
-    found = connection.execute(dialect.insert(table).values(values).on_conflict_do_nothing())
-    return found.rowcount > 0
+    added = dialect.insert(table).values(values).on_conflict_do_nothing().returning(*table.primary_key.columns)
+    return connection.execute(added).first() is not None

@@ -188,13 +188,16 @@ class JobRepository:
         self._connection.execute(update(jobs).where(mine).values(owner=None, lease_until=None))
         return found
 
-    def abandon(self, job_id: str) -> None:
-        """Take a job from the owner that has not renewed its lease, for others to take up."""
-        self._connection.execute(
+    def abandon(self, job_id: str) -> bool:
+        """Take a job from the owner that has not renewed its lease, for others to take up; False where that was done
+        already.
+        """
+        found = self._connection.execute(
             update(jobs)
             .where(jobs.c.id == job_id, _ACTIVE, jobs.c.lease_until <= epoch())
             .values(owner=None, lease_until=None)
         )
+        return found.rowcount > 0
 
     def finish(
         self,

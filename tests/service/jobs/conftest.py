@@ -7,17 +7,25 @@ from pathlib import Path
 
 import pytest
 
-from tests.service.jobs.deployments import Deployment, Embedded
+from tests.service.jobs.deployments import Deployment, Embedded, Queued
+from tests.service.postgres import Postgres
 
 Deploy = Callable[..., Deployment]
 
-KINDS: dict[str, Callable[..., Deployment]] = {"sqlite": Embedded}
+KINDS = ("sqlite", "postgresql")
+
+
+def _make(request: pytest.FixtureRequest, folder: Path, **environment: str) -> Deployment:
+    if request.param == "sqlite":
+        return Embedded(folder, **environment)
+    server: Postgres = request.getfixturevalue("postgres")
+    return Queued(folder, CQLTL_DATABASE_URL=server.database(), **environment)
 
 
 @pytest.fixture(scope="module", params=KINDS)
 def shared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
     """A deployment that the tests of a module share, so none may break it."""
-    found = KINDS[request.param](tmp_path_factory.mktemp("shared"))
+    found = _make(request, tmp_path_factory.mktemp("shared"))
     yield found
     found.close()
 
@@ -28,7 +36,7 @@ def deploy(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Deploy]:
     found: list[Deployment] = []
 
     def make(**environment: str) -> Deployment:
-        found.append(KINDS[request.param](tmp_path, **environment))
+        found.append(_make(request, tmp_path, **environment))
         return found[-1]
 
     yield make

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 import time
 from abc import ABC, abstractmethod
 from contextlib import ExitStack
@@ -15,7 +16,7 @@ import httpx
 
 from benchmarks.server import address, started
 from models.world import toys_spec
-from tests.service.jobs.processes import busiest, grandchildren
+from tests.service.processes import busiest, grandchildren
 
 LEASE_S = 2.0
 FORMULA = "G F holding(sphere) & G F holding(cube)"
@@ -72,7 +73,12 @@ class Deployment(ABC):
 
     def busy_child(self) -> int:
         """The process that plans just now."""
-        return busiest({pid for process in self.planners for pid in grandchildren(process.pid)})
+        return busiest(self.children)
+
+    @property
+    def children(self) -> set[int]:
+        """The processes that plans are made in."""
+        return {pid for process in self.planners for pid in grandchildren(process.pid)}
 
     def close(self) -> None:
         """End everything."""
@@ -101,6 +107,41 @@ class Embedded(Deployment):
         """A further service, which answers from now on."""
         self.server = self.serve()
         self.client = self.connect(self.server)
+
+
+class Queued(Deployment):
+    """Services on PostgreSQL, and workers that plan for them."""
+
+    def __init__(self, folder: Path, queues: str = "plan,gpu", **environment: str) -> None:
+        self.queues = queues
+        self._workers: list[subprocess.Popen[str]] = []
+        super().__init__(folder, **environment)
+        self.add_planner()
+
+    @property
+    def planners(self) -> list[subprocess.Popen[str]]:
+        """The workers."""
+        return [worker for worker in self._workers if worker.poll() is None]
+
+    def add_planner(self) -> None:
+        """A further worker."""
+        worker = subprocess.Popen(
+            [sys.executable, "-m", "service", "worker", "--queues", self.queues],
+            env={**os.environ, **self.environment},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self._workers.append(worker)
+        self._open.callback(_end, worker)
+        assert worker.stdout is not None
+        assert worker.stdout.readline().startswith("cqltl works on ")
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    process.terminate()
+    process.wait(30)
+    if process.stdout is not None:
+        process.stdout.close()
 
 
 def order(client: httpx.Client, body: dict[str, Any], **headers: str) -> str:

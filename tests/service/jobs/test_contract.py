@@ -13,7 +13,7 @@ import pytest
 
 from tests.service.conftest import check_problem
 from tests.service.jobs.deployments import ENDLESS, QUICK, SLOW, Deployment, order, task, wait_for
-from tests.service.jobs.processes import gone_within
+from tests.service.processes import gone_within
 
 ENDS = ("succeeded", "failed", "cancelled")
 
@@ -128,6 +128,13 @@ def test_an_unknown_job_is_a_problem_everywhere(shared: Deployment) -> None:
     client = shared.client
     for response in (client.get("/jobs/nobody"), client.post("/jobs/nobody/cancel"), client.get("/jobs/nobody/events")):
         check_problem(response, "unknown-job", 404)
+
+
+@pytest.mark.parametrize("path", ["jobs", "environments", "policies", "templates"])
+def test_a_name_that_no_database_holds_is_a_problem(shared: Deployment, path: str) -> None:
+    response = shared.client.get(f"/{path}/a%00b")
+    assert response.status_code in (404, 422)
+    assert response.headers["content-type"] == "application/problem+json"
 
 
 def test_events_tell_how_far_a_job_is_and_how_it_ends(shared: Deployment) -> None:

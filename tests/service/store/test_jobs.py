@@ -17,9 +17,10 @@ from service.store.migrate import migrate
 JOB = NewJob(queue="plan", environment="e", ltl="F a", work="{}", told="{}", deadline_s=60.0)
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    url = f"sqlite:///{tmp_path / 'store.sqlite3'}"
+@pytest.fixture(params=["sqlite", "postgresql"])
+def store(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Store]:
+    sqlite = request.param == "sqlite"
+    url = f"sqlite:///{tmp_path / 'store.sqlite3'}" if sqlite else request.getfixturevalue("postgres").database()
     migrate(url)
     found = Store(url)
     yield found

@@ -18,6 +18,14 @@ def grandchildren(pid: int) -> set[int]:
     return {found for child in children(pid) for found in children(child)}
 
 
+def computing(pids: set[int], seconds: float = 0.5) -> int:
+    """How many of them compute most of that time."""
+    before = {pid: cpu(pid) for pid in pids}
+    time.sleep(seconds)
+    ticks = seconds * os.sysconf("SC_CLK_TCK")
+    return sum(cpu(pid) - before[pid] > ticks / 5 for pid in pids if alive(pid))  # machines are shared
+
+
 def busiest(pids: set[int], seconds: float = 0.3) -> int:
     """The one that computes the most in that time."""
     before = {pid: cpu(pid) for pid in pids}
