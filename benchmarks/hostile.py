@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--requests", type=int, default=100)
     options = parser.parse_args(arguments)
     ends: list[str] = []
-    with serving() as client:
+    with serving(CQLTL_WAIT_S=str(4 * TIMEOUT_S)) as client:
         timed(client, 20)
         alone = timed(client, options.requests)
         over = threading.Event()

@@ -157,7 +157,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     print("| task | grid | toys | states | steps | new world | stored world | paper |")
     print("|---|---|---|---|---|---|---|---|")
     found = []
-    with serving(CQLTL_PLAN_TIMEOUT_S=str(options.limit)) as client:
+    wait = str(2 * options.limit)
+    with serving(CQLTL_PLAN_TIMEOUT_S=str(options.limit), CQLTL_WAIT_S=wait, CQLTL_MAX_WAIT_S=wait) as client:
         for each in rows(client, options):
             found.append(each)
             print(line(each), flush=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from alembic import context
 
 from service.settings import Settings
+from service.store.dialect import lock_writers
 from service.store.engine import WRITE, open_engine
 from service.store.tables import metadata
 
@@ -16,6 +17,7 @@ def run() -> None:
         connection.execution_options(**{WRITE: True})
         context.configure(connection=connection, target_metadata=metadata, transactional_ddl=True)
         with context.begin_transaction():
+            lock_writers(connection)
             context.run_migrations()
     engine.dispose()
 

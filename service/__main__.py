@@ -1,11 +1,13 @@
-"""The command line: `cqltl serve | learn | translate | explain | plan | export | import | openapi`."""
+"""The command line: `cqltl serve | worker | learn | translate | explain | plan | export | import | openapi`."""
 
 from __future__ import annotations
 
 import argparse
+import asyncio
 import json
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from pydantic import ValidationError
 
 from service.exchange import add_commands, export, import_model
 from service.settings import Settings
+from service.store.engine import is_postgresql
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -24,7 +27,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for item in error.errors():
             print(f"CQLTL_{'_'.join(map(str, item['loc'])).upper()}: {item['msg']}", file=sys.stderr)
         return 2
-    commands = {"serve": _serve, "openapi": _openapi, "export": _export, "import": _import}
+    if is_postgresql(settings.url) and not all(map(find_spec, ("psycopg", "procrastinate"))):
+        print(
+            "CQLTL_DATABASE_URL: PostgreSQL needs the extra `postgres`: pip install 'cqltl[postgres]'", file=sys.stderr
+        )
+        return 2
+    commands = {"serve": _serve, "worker": _worker, "openapi": _openapi, "export": _export, "import": _import}
     run = commands.get(options.command, _request)
     return run(settings, options)
 
@@ -36,6 +44,9 @@ def _parser() -> argparse.ArgumentParser:
     serve = commands.add_parser("serve", help="migrate the store and serve over HTTP")
     serve.add_argument("--host", help="address to bind (CQLTL_HOST, 127.0.0.1)")
     serve.add_argument("--port", type=_port, help="port to bind, 0 for any free one (CQLTL_PORT, 8000)")
+
+    worker = commands.add_parser("worker", help="plan for the servers on a PostgreSQL database")
+    worker.add_argument("--queues", type=_queues, default=["plan"], help="plan (default), gpu, or plan,gpu")
 
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
@@ -85,6 +96,13 @@ def _port(text: str) -> int:
     return number
 
 
+def _queues(text: str) -> list[str]:
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names or not set(names) <= {"plan", "gpu"}:
+        raise argparse.ArgumentTypeError("queues are plan and gpu, separated by a comma")
+    return names
+
+
 def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
     parser.add_argument("--server", help="address of a running server; without it none is needed")
     return parser
@@ -102,6 +120,22 @@ def _serve(settings: Settings, options: argparse.Namespace) -> int:
     except CannotListenError as error:
         print(error, file=sys.stderr)
         return 1
+    return 0
+
+
+def _worker(settings: Settings, options: argparse.Namespace) -> int:
+    if not is_postgresql(settings.url):
+        print("the service plans itself on SQLite; workers need a CQLTL_DATABASE_URL of PostgreSQL", file=sys.stderr)
+        return 2
+    from service.forkserver import launch
+
+    launch()
+    from service.jobs.queue_worker import work
+    from service.store.migrate import migrate
+
+    said = f"cqltl works on {', '.join(options.queues)}"
+    migrate(settings.url)
+    asyncio.run(work(settings, options.queues, lambda: print(said, flush=True)))
     return 0
 
 

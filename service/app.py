@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
@@ -17,14 +18,16 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
-from service.http import environments, explanations, health, language, plans, policies, templates
+from service.http import environments, explanations, health, jobs, language, plans, policies, templates
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
+from service.jobs import EmbeddedExecutor, Executor
 from service.seeds import seed
 from service.services import Services
 from service.settings import Settings
 from service.store import Store
+from service.store.engine import is_postgresql
 from service.store.migrate import migrate
 from service.translators import DEFAULT, Translators
 from service.understanding import understand
@@ -40,7 +43,8 @@ class State(TypedDict):
 def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     """The app; its lifespan migrates the store, starts the workers and loads the translators.
 
-    `warm` starts the worker processes at once, so that the first plan is as fast as the others.
+    `warm` starts the worker processes at once, so that the first plan is as fast as the others, and takes up the jobs
+    that other processes left; without it the app is for a single request.
     """
     app = FastAPIOffline(
         redoc_url=None,
@@ -51,37 +55,61 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         lifespan=partial(_lifespan, settings, warm),
         separate_input_output_schemas=False,
     )
+    app.state.closing = threading.Event()
     install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
-    for module in (language, explanations, templates, environments, plans, policies, health):
+    for module in (language, explanations, templates, environments, plans, jobs, policies, health):
         app.include_router(module.router)
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
     return app
 
 
 @asynccontextmanager
-async def _lifespan(settings: Settings, warm: bool, _app: FastAPI) -> AsyncIterator[State]:
-    workers = Workers(planners=settings.workers, max_waiting=settings.max_waiting)
+async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterator[State]:
+    workers = Workers(
+        planners=settings.workers, max_waiting=settings.max_waiting, memory_bytes=settings.worker_memory_bytes
+    )
     translators = Translators.shipped()
-    store = None
+    store: Store | None = None
+    executor: Executor | None = None
     tasks = [asyncio.create_task(run_sync(partial(workers.start, warm=warm)))]  # they load in processes of their own
     try:
         await run_sync(migrate, settings.url)
         await run_sync(translators.queries, DEFAULT)
         await tasks[0]
         store = Store(settings.url)
-        services = Services(settings=settings, store=store, workers=workers, translators=translators)
+        executor = _executor(settings, store, workers, queue=warm)
+        services = Services(
+            settings=settings,
+            store=store,
+            workers=workers,
+            jobs=executor,
+            translators=translators,
+            closing=app.state.closing,
+        )
         await seed(services)
+        await executor.start(take_up=warm)
         if warm:
             await run_sync(_warm, services)
             tasks.append(asyncio.create_task(run_sync(_load_the_rest)))
         yield {"services": services}
     finally:
         await asyncio.wait(tasks)
+        if executor is not None:
+            await executor.stop()
         await run_sync(workers.stop)
         if store is not None:
             store.close()
+
+
+def _executor(settings: Settings, store: Store, workers: Workers, *, queue: bool) -> Executor:
+    """On PostgreSQL the workers plan that are there for it, unless the app is for a single request."""
+    if not (queue and is_postgresql(settings.url)):
+        return EmbeddedExecutor(store, workers, settings)
+    from service.jobs.queue import QueueExecutor
+
+    return QueueExecutor(store, settings)
 
 
 def _warm(services: Services) -> None:

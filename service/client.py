@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from typing import Any
 
 import httpx
@@ -11,13 +12,16 @@ from service.settings import Settings
 
 TIMEOUT_S = 120.0
 
+POLL_S = 0.5
+"""How often a server is asked whether a job has ended."""
+
 
 class UnreachableError(Exception):
     """The server does not answer."""
 
 
 def post(path: str, body: dict[str, Any], *, server: str | None, settings: Settings) -> tuple[int, Any]:
-    """POST a JSON body; status and decoded answer.
+    """POST a JSON body; status and decoded answer. What is made as a job is waited for.
 
     Raises:
         UnreachableError: no server answers at that address, or what answers does not speak JSON.
@@ -34,7 +38,8 @@ def _ask(
     method: str, path: str, body: dict[str, Any] | None, server: str | None, settings: Settings
 ) -> tuple[int, Any]:
     if server is not None:
-        return _send(method, server, path, body)
+        status, answer = _send(method, server, path, body)
+        return _ended(server, answer) if status == 202 else (status, answer)
     response = asyncio.run(_ask_here(method, path, body, settings))
     return response.status_code, response.json()
 
@@ -60,9 +65,23 @@ def _send(method: str, server: str, path: str, body: dict[str, Any] | None) -> t
         raise UnreachableError(f"{url}: {error}") from error
 
 
+def _ended(server: str, job: dict[str, Any]) -> tuple[int, Any]:
+    """What became of a job, as if its request had waited."""
+    while job["state"] in ("queued", "running"):
+        time.sleep(POLL_S)
+        status, job = _send("GET", server, job["url"], None)
+        if status != 200:
+            return status, job
+    if job["state"] == "succeeded":
+        return 200, job["plan"]
+    return (400, job["error"]) if job["state"] == "failed" else (400, job)
+
+
 async def _ask_here(method: str, path: str, body: dict[str, Any] | None, settings: Settings) -> httpx.Response:
     from service.app import create_app
     from service.asgi import running
 
-    async with running(create_app(settings, warm=False)) as client:
+    # Nobody could fetch a job from a process that has ended.
+    patient = settings.model_copy(update=dict.fromkeys(("wait_s", "max_wait_s"), settings.job_deadline_s))
+    async with running(create_app(patient, warm=False)) as client:
         return await client.request(method, path, json=body, timeout=TIMEOUT_S)

@@ -5,7 +5,8 @@ CqltlError
 │   ├── UnknownEnvironmentError
 │   ├── UnknownTemplateError
 │   ├── UnknownExampleError
-│   └── UnknownPolicyError
+│   ├── UnknownPolicyError
+│   └── UnknownJobError
 ├── TemplateConflictError      another template is stored for the task
 ├── TooManyExamplesError       a template keeps no more pairs or utterances
 ├── EnvironmentExistsError     an environment of that name is stored
@@ -14,6 +15,9 @@ CqltlError
 ├── AnswerError                an answer is not one to the question that is asked
 ├── DrawingTooLargeError       the automaton has too many states to be drawn
 ├── OutOfTimeError             a budget of time was spent
+├── OutOfMemoryError           the work needs more memory than a process may have
+├── WorkerDiedError            the process that did the work died
+├── KeyInUseError              an Idempotency-Key came with another request before
 ├── OverloadedError            too many requests wait already
 └── NotReadyError              the store does not answer
 """
@@ -56,6 +60,12 @@ class UnknownPolicyError(NotFoundError):
     """No policy with this id is stored."""
 
     slug = "unknown-policy"
+
+
+class UnknownJobError(NotFoundError):
+    """No job with this id is stored."""
+
+    slug = "unknown-job"
 
 
 class TemplateConflictError(CqltlError):
@@ -109,6 +119,24 @@ class OutOfTimeError(CqltlError):
     """The work was stopped at its time limit."""
 
     slug = "out-of-time"
+
+
+class OutOfMemoryError(CqltlError):
+    """The work was stopped at its limit of memory."""
+
+    slug = "out-of-memory"
+
+
+class WorkerDiedError(CqltlError):
+    """The process that did the work died."""
+
+    slug = "worker-died"
+
+
+class KeyInUseError(CqltlError):
+    """The idempotency key was sent before, with another request."""
+
+    slug = "idempotency-key-reused"
 
 
 class OverloadedError(CqltlError):

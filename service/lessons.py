@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -18,7 +18,8 @@ from models.world import Environment, explain
 from service.errors import OutOfTimeError, TemplateConflictError, TooManyExamplesError
 from service.places import at
 from service.services import LoadedEnvironment, Services
-from service.store import StoredExample, StoredPair, StoredTemplate
+from service.store import StoredExample, StoredPair, StoredTemplate, Transaction
+from service.taught import Taught
 from service.worker import ReviewJob, run_review
 
 T = TypeVar("T")
@@ -51,10 +52,18 @@ class Learned:
     conflicts: tuple[str, ...]
 
 
-async def learn_template(services: Services, lesson: Lesson) -> Learned:
+Note = Callable[[Transaction, Learned], None]
+"""What is done in the transaction that stores what was learned."""
+
+
+def _no_note(_transaction: Transaction, _learned: Learned) -> None:
+    pass
+
+
+async def learn_template(services: Services, lesson: Lesson, *, note: Note = _no_note) -> Learned:
     """Derive the template, review it, and store it.
 
-    Learning the same again stores nothing new but pairs and utterances not seen before.
+    Learning the same again stores nothing new but pairs and utterances not seen before. What `note` raises undoes all.
 
     Raises:
         TemplateConflictError: the task has another template and `lesson.replace` is not set.
@@ -67,7 +76,7 @@ async def learn_template(services: Services, lesson: Lesson) -> Learned:
     except (OutOfTimeError, FormulaTooLargeError) as error:
         warnings = (f"the template was not checked for a simpler form: {error.detail}",)
     reading = explain(template.formula, environment.value)
-    return await run_sync(_keep, services, lesson, template, examples, warnings, reading)
+    return await run_sync(_keep, services, lesson, template, examples, warnings, reading, note)
 
 
 def _derive(services: Services, lesson: Lesson) -> tuple[Template, LoadedEnvironment, tuple[StoredExample, ...]]:
@@ -134,6 +143,7 @@ def _keep(
     examples: tuple[StoredExample, ...],
     warnings: tuple[str, ...],
     reading: str,
+    note: Note,
 ) -> Learned:
     pairs = [StoredPair(lesson.query, lesson.ltl, lesson.environment)]
     pairs += [StoredPair(query, ltl, lesson.environment) for query, ltl in lesson.more]
@@ -166,8 +176,11 @@ def _keep(
             raise TemplateConflictError(detail, places=[Place("/ltl", detail)])
         if kept != known:
             transaction.templates.put(kept)
+        conflicts = Taught.of(0, transaction.templates.every()).conflict_warnings(examples) if examples else ()
+        learned = Learned(kept, known is None, conflicts)
+        note(transaction, learned)
     services.note_examples([example for example in examples if known is None or example not in known.examples])
-    return Learned(kept, known is None, services.known().conflict_warnings(examples))
+    return learned
 
 
 def _replace(known: StoredTemplate, new: StoredTemplate) -> StoredTemplate:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from anyio.to_thread import run_sync
 
-from models.logic import Formula, parse
-from models.logic import to_text as formula_text
+from models.logic import parse
 from models.queries import (
     Query,
     evaluate,
@@ -21,13 +18,17 @@ from models.queries import (
 )
 from models.world import Environment, State
 from service.errors import AmbiguousCommandError, NotUnderstoodError
+from service.jobs import Commission, Planned
 from service.places import at
 from service.questions import Answer, Question, answered, question_of
 from service.services import LoadedEnvironment, Services
-from service.store import StoredPolicy
+from service.store import Once, StoredJob
 from service.taught import read_template
 from service.understanding import Meaning, Understanding, nearest_tasks, understand
-from service.worker import Device, Objective, PlanAnswer, PlanJob, run_plan
+from service.worker import Device, Objective, PlanJob
+
+Describe = Callable[[Meaning, Environment], Mapping[str, Any]]
+"""What is known of a plan's answer before planning, from what is meant and where."""
 
 RIVALS = 3
 """Readings that are looked at to see whether several are meant."""
@@ -74,16 +75,6 @@ class PlanOrder:
     relevance: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Planned:
-    """A plan: what was planned for, where, and what was found."""
-
-    meaning: Meaning
-    environment: Environment
-    answer: PlanAnswer
-    policy_id: str | None
-
-
 def translate(
     services: Services,
     text: str,
@@ -126,10 +117,16 @@ def ground(
         return world, ground_query(services, query, world)
 
 
-async def plan(services: Services, order: PlanOrder) -> Planned:
-    """Ground, compile, and run value iteration in a worker process; the policy is stored."""
+async def plan(
+    services: Services, order: PlanOrder, describe: Describe, *, wait_s: float, once: Once | None = None
+) -> Planned | StoredJob:
+    """Ground, compile, and run value iteration in a worker process; the policy is stored.
+
+    What takes longer than `wait_s` seconds becomes a job, and so does a request that is to be done `once`: a job that
+    has ended tells what became of it. `describe` gives what is known of the answer beforehand, as JSON.
+    """
     environment, meaning = await run_sync(_prepare, services, order)
-    job = PlanJob(
+    work = PlanJob(
         environment=environment.text,
         formula=meaning.formula,
         state=order.state,
@@ -141,15 +138,9 @@ async def plan(services: Services, order: PlanOrder) -> Planned:
         relevance=order.relevance,
         timeout_s=order.timeout_s,
     )
-    with (
-        at("/state", only={"invalid-state"}),
-        at("/options/max_states", only={"model-too-large"}),
-        at("/options/device", only={"device-unavailable"}),
-        at(_source(order), only={"formula-too-large"}),
-    ):
-        answer = await services.workers.plan(run_plan, job, timeout_s=order.timeout_s)
-    policy_id = await run_sync(_keep_policy, services, environment, meaning.formula, order.objective, answer)
-    return Planned(meaning, environment.value, answer, policy_id)
+    told = describe(meaning, environment.value)
+    commission = Commission(work, environment.value.name, told, _source(order))
+    return await services.jobs.plan(commission, wait_s=wait_s, once=once)
 
 
 def _situated(services: Services, name: str, state: State | None) -> Environment:
@@ -228,16 +219,3 @@ def _source(order: PlanOrder) -> str:
 def query_pointer(query: str | Query) -> str:
     """The pointer of the member that has the query."""
     return "/contextual_query" if isinstance(query, str) else "/query"
-
-
-def _keep_policy(
-    services: Services, environment: LoadedEnvironment, formula: Formula, objective: Objective, answer: PlanAnswer
-) -> str | None:
-    """Store the policy under a digest of what it holds, so that the same plan in the same world has the same id."""
-    if answer.policy is None:
-        return None
-    name, ltl, world = environment.value.name, formula_text(formula), environment.text
-    digest = hashlib.sha256(json.dumps([world, ltl, objective]).encode() + b"\0" + answer.policy).hexdigest()[:32]
-    with services.store.write() as transaction:
-        transaction.policies.add(StoredPolicy(digest, name, ltl, objective, world, answer.policy))
-    return digest

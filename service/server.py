@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import threading
 
 import uvicorn
 from sqlalchemy.engine import make_url
@@ -23,16 +24,20 @@ class CannotListenError(Exception):
 
 
 class _Server(uvicorn.Server):
-    """Says where it listens once it does."""
+    """Says where it listens once it does, and tells open streams when it is about to stop."""
 
-    def __init__(self, config: uvicorn.Config, said: str) -> None:
+    def __init__(self, config: uvicorn.Config, said: str, closing: threading.Event) -> None:
         super().__init__(config)
-        self._said = said
+        self._said, self._closing = said, closing
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         if self.started:
             print(self._said, flush=True)  # noqa: T201 - what `cqltl serve` is for
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._closing.set()
+        await super().shutdown(sockets)
 
 
 def serve(settings: Settings, *, host: str, port: int) -> None:
@@ -56,5 +61,6 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
             url=f"http://{shown}:{listener.getsockname()[1]}",
             store=make_url(settings.url).render_as_string(hide_password=True),
         )
-        config = uvicorn.Config(create_app(settings), log_level="warning", timeout_graceful_shutdown=10)
-        _Server(config, said).run(sockets=[listener])
+        app = create_app(settings)
+        config = uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=10)
+        _Server(config, said, app.state.closing).run(sockets=[listener])

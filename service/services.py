@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -14,6 +15,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from models.language.hearing import Lessons
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
+from service.jobs import Executor
 from service.settings import Settings
 from service.store import Store, StoredExample, StoredPolicy
 from service.taught import KnownCache, Taught, TaughtCache, read_example
@@ -38,12 +40,25 @@ class LoadedEnvironment:
 
 
 class Services:
-    """The store, the worker processes and the translators, with small caches of what was read from the store."""
+    """The store, the worker processes, what makes plans, and the translators, with small caches of what was read from
+    the store. `closing` is set when the server stops.
+    """
 
-    def __init__(self, *, settings: Settings, store: Store, workers: Workers, translators: Translators) -> None:
+    def __init__(
+        self,
+        *,
+        settings: Settings,
+        store: Store,
+        workers: Workers,
+        jobs: Executor,
+        translators: Translators,
+        closing: threading.Event,
+    ) -> None:
         self.settings = settings
         self.store = store
         self.workers = workers
+        self.jobs = jobs
+        self.closing = closing
         self.translators = translators
         self._taught = TaughtCache()
         self._utterances = KnownCache()

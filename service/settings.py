@@ -22,6 +22,15 @@ class Settings(BaseSettings):
     max_waiting: int = Field(32, ge=0, description="Requests that may wait for a process before 503.")
     max_body_bytes: int = Field(1_048_576, ge=1, description="Largest request body, in bytes.")
     plan_timeout_s: float = Field(30.0, gt=0, description="Longest time to plan or simulate, in seconds.")
+    wait_s: float = Field(5.0, ge=0, description="Seconds that `/plan` waits unless the request prefers otherwise.")
+    max_wait_s: float = Field(60.0, ge=0, description="Longest wait that a request may prefer, in seconds.")
+    job_deadline_s: float = Field(3600.0, gt=0, description="Longest time from a job's acceptance to its end.")
+    job_lease_s: float = Field(10.0, ge=1, description="Seconds after which a job of a dead process is taken up.")
+    job_retention_s: float = Field(604_800.0, ge=0, description="How long jobs that ended are kept, in seconds.")
+    idempotency_s: float = Field(86_400.0, ge=0, description="How long Idempotency-Keys are remembered, in seconds.")
+    worker_memory_bytes: int = Field(
+        17_179_869_184, ge=0, description="Address space of one worker process, in bytes; 0 sets no limit."
+    )
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
 

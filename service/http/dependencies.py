@@ -7,7 +7,8 @@ from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, Query, Request
 
-from service.http.problems import MEDIA_TYPE, STATUS, Problem
+from service.http.problems import MEDIA_TYPE, STATUS
+from service.http.schemas.problems import Problem
 from service.services import Services
 
 T = TypeVar("T")

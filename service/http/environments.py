@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+from anyio.to_thread import run_sync
 from fastapi import APIRouter, Response
 
 from models.errors import Place
 from models.world import EnvironmentSpec, WorldError, load_environment
+from service.errors import EnvironmentExistsError
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
+from service.http.idempotency import SLUGS, AnsweredMeanwhile, KeyHeader, keeping, kept_response, once_of
 from service.http.schemas import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.views import environment_data, location
-from service.store import StoredEnvironment
+from service.services import Services
+from service.store import Once, StoredEnvironment
 
 router = APIRouter(prefix="/environments", tags=["environments"])
 
@@ -30,14 +34,23 @@ def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 
     "",
     operation_id="createEnvironment",
     status_code=201,
-    responses=refusals(*BODY, "invalid-environment", "environment-exists"),
+    responses=refusals(*BODY, *SLUGS, "invalid-environment", "environment-exists"),
 )
-def post_environment(body: EnvironmentSpec, services: ServicesDep, response: Response) -> EnvironmentOut:
+async def post_environment(
+    body: EnvironmentSpec, services: ServicesDep, response: Response, idempotency_key: KeyHeader = None
+) -> EnvironmentOut:
     """Store a new environment."""
-    name, data = _checked(body)
-    with services.store.write() as transaction:
-        stored = transaction.environments.add(name, body.kind, data)
-    response.headers["Location"] = location("environments", name)
+    once = once_of("environments", idempotency_key, body)
+    if (before := await kept_response(services, once)) is not None:
+        return before  # type: ignore[return-value]  # FastAPI passes responses on
+    try:
+        stored = await run_sync(_add, services, body, once)
+    except (AnsweredMeanwhile, EnvironmentExistsError):
+        meanwhile = await kept_response(services, once)
+        if meanwhile is None:
+            raise
+        return meanwhile  # type: ignore[return-value]
+    response.headers["Location"] = location("environments", stored.name)
     return _out(stored)
 
 
@@ -79,6 +92,15 @@ def delete_environment(name: str, services: ServicesDep) -> None:
     """Forget an environment. Policies planned in it stay usable."""
     with services.store.write() as transaction:
         transaction.environments.delete(name)
+
+
+def _add(services: Services, body: EnvironmentSpec, once: Once | None) -> StoredEnvironment:
+    name, data = _checked(body)
+    keep = keeping(once, lambda stored: (201, location("environments", stored.name), _out(stored)))
+    with services.store.write() as transaction:
+        stored = transaction.environments.add(name, body.kind, data)
+        keep(transaction, stored)
+    return stored
 
 
 def _checked(body: EnvironmentSpec) -> tuple[str, dict[str, Any]]:

@@ -7,6 +7,7 @@ from fastapi import APIRouter, Response
 
 from models.logic import to_text as formula_text
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
+from service.http.idempotency import SLUGS, AnsweredMeanwhile, KeyHeader, keeping, kept_response, once_of
 from service.http.schemas import (
     BatchRequest,
     BatchResponse,
@@ -18,7 +19,7 @@ from service.http.schemas import (
     TranslateResponse,
 )
 from service.http.views import answers_in, bindings_out, location, query_in, query_out, template_out, translated_out
-from service.lessons import Lesson, learn_template
+from service.lessons import Learned, Lesson, learn_template
 from service.pipeline import ground, translate
 
 router = APIRouter(tags=["language"])
@@ -80,6 +81,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
         },
         **refusals(
             *BODY,
+            *SLUGS,
             "unknown-environment",
             "template-conflict",
             "formula-syntax",
@@ -101,8 +103,13 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
         ),
     },
 )
-async def post_learn(body: LearnRequest, services: ServicesDep, response: Response) -> TemplateOut:
+async def post_learn(
+    body: LearnRequest, services: ServicesDep, response: Response, idempotency_key: KeyHeader = None
+) -> TemplateOut:
     """Learn the template of a task class from one contextual query and its grounded LTL."""
+    once = once_of("learn", idempotency_key, body)
+    if (before := await kept_response(services, once)) is not None:
+        return before  # type: ignore[return-value]  # FastAPI passes responses on
     lesson = Lesson(
         query=body.contextual_query,
         ltl=body.ltl,
@@ -112,10 +119,17 @@ async def post_learn(body: LearnRequest, services: ServicesDep, response: Respon
         replace=body.replace,
         explanation=body.explanation,
     )
-    learned = await learn_template(services, lesson)
-    response.status_code = 201 if learned.created else 200
-    response.headers["Location"] = location("templates", learned.stored.task)
-    return template_out(learned.stored, *learned.conflicts)
+    try:
+        learned = await learn_template(services, lesson, note=keeping(once, _learned))
+    except AnsweredMeanwhile:
+        return await kept_response(services, once)  # type: ignore[return-value]
+    response.status_code, response.headers["Location"], answer = _learned(learned)
+    return answer
+
+
+def _learned(learned: Learned) -> tuple[int, str, TemplateOut]:
+    status = 201 if learned.created else 200
+    return status, location("templates", learned.stored.task), template_out(learned.stored, *learned.conflicts)
 
 
 @router.post(

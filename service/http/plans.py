@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-import math
 import time
+from functools import partial
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Response
+from fastapi.responses import JSONResponse
 
-from models.logic import to_text as formula_text
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
-from service.http.schemas import (
-    Bounds,
-    ModelSize,
-    PlanRequest,
-    PlanResponse,
-    PolicySummary,
-    RoundSteps,
-    Situation,
-    Timing,
-    TrajectoryStep,
-    VerifiedOut,
-)
-from service.http.views import answers_in, bindings_out, environment_data, query_in, query_out
-from service.pipeline import Planned, PlanOrder, plan
+from service.http.idempotency import SLUGS, KeyHeader, once_of
+from service.http.plan_views import described, job_out, job_plan_out, job_problem, job_url, plan_out
+from service.http.preferences import PreferHeader, wait_of
+from service.http.problems import response_of
+from service.http.schemas import JobOut, PlanRequest, PlanResponse
+from service.http.views import answers_in, environment_data, query_in
+from service.jobs import OPERATION
+from service.pipeline import PlanOrder, plan
+from service.store import StoredJob
 
 router = APIRouter(tags=["planning"])
 
@@ -30,27 +25,50 @@ router = APIRouter(tags=["planning"])
 @router.post(
     "/plan",
     operation_id="plan",
-    responses=refusals(
-        *BODY,
-        *GROUNDING,
-        "unknown-environment",
-        "unknown-template",
-        "invalid-environment",
-        "invalid-state",
-        "text-too-long",
-        "not-understood",
-        "ambiguous-command",
-        "wrong-answer",
-        "formula-syntax",
-        "formula-too-large",
-        "model-too-large",
-        "device-unavailable",
-        "out-of-time",
-        "overloaded",
-    ),
+    responses={
+        202: {
+            "model": JobOut,
+            "description": "The plan takes longer than the request waits, and is made as a job.",
+            "headers": {
+                "Location": {"schema": {"type": "string"}, "description": "The job."},
+                "Retry-After": {"schema": {"type": "integer"}, "description": "Seconds until it is worth asking."},
+                "Preference-Applied": {"schema": {"type": "string"}, "description": "What of `Prefer` was done."},
+            },
+        },
+        **refusals(
+            *BODY,
+            *SLUGS,
+            *GROUNDING,
+            "unknown-environment",
+            "unknown-template",
+            "invalid-environment",
+            "invalid-state",
+            "text-too-long",
+            "not-understood",
+            "ambiguous-command",
+            "wrong-answer",
+            "formula-syntax",
+            "formula-too-large",
+            "model-too-large",
+            "device-unavailable",
+            "out-of-time",
+            "out-of-memory",
+            "overloaded",
+            "worker-died",
+        ),
+    },
 )
-async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
-    """Plan a command, a contextual query or an LTL formula in an environment."""
+async def post_plan(
+    body: PlanRequest,
+    services: ServicesDep,
+    response: Response,
+    prefer: PreferHeader = "",
+    idempotency_key: KeyHeader = None,
+) -> PlanResponse:
+    """Plan a command, a contextual query or an LTL formula in an environment.
+
+    What takes longer than the request waits is answered with a job.
+    """
     started = time.perf_counter()
     settings, options = services.settings, body.options
     spec = body.environment_spec
@@ -71,61 +89,21 @@ async def post_plan(body: PlanRequest, services: ServicesDep) -> PlanResponse:
         verify=options.verify,
         relevance=options.relevance,
     )
-    return _plan_out(await plan(services, order), order, time.perf_counter() - started)
-
-
-def _finite(number: float | None) -> float | None:
-    return number if number is not None and math.isfinite(number) else None
-
-
-def _round_out(steps: tuple[float, float] | None) -> RoundSteps | None:
-    return None if steps is None else RoundSteps(lower=steps[0], upper=_finite(steps[1]))
-
-
-def _verified_out(planned: Planned) -> VerifiedOut | None:
-    found = planned.answer.verified
-    if found is None:
-        return None
-    return VerifiedOut(
-        probability=found.probability,
-        expected_steps=_finite(found.expected_steps),
-        sound=found.sound,
-        states=found.states,
+    wait = wait_of(prefer, default_s=settings.wait_s, longest_s=settings.max_wait_s)
+    headers = {} if wait.applied is None else {"Preference-Applied": wait.applied}
+    found = await plan(
+        services,
+        order,
+        partial(described, objective=options.objective),
+        wait_s=wait.seconds,
+        once=once_of(OPERATION, idempotency_key, body),
     )
-
-
-def _plan_out(planned: Planned, order: PlanOrder, seconds: float) -> PlanResponse:
-    answer, meaning = planned.answer, planned.meaning
-    steps = [TrajectoryStep(state=state, memory=memory, action=action) for state, memory, action in answer.trajectory]
-    policy = None
-    if planned.policy_id is not None:
-        url = f"/policies/{planned.policy_id}"
-        policy = PolicySummary(id=planned.policy_id, url=url, memories=answer.automaton_states, states=answer.states)
-    return PlanResponse(
-        id=planned.policy_id,
-        outcome=answer.outcome,
-        objective=order.objective,
-        contextual_query=None if meaning.query is None else query_out(meaning.query),
-        ltl=formula_text(meaning.formula),
-        explanation=meaning.explanation(planned.environment),
-        bindings=bindings_out(meaning),
-        warnings=list(meaning.warnings),
-        environment=planned.environment.name,
-        probability=Bounds(lower=answer.lower, upper=answer.upper),
-        expected_steps=answer.expected_steps,
-        expected_steps_upper=_finite(answer.expected_steps_upper),
-        round_steps=_round_out(answer.round_steps),
-        initial=Situation(state=answer.initial, memory=answer.initial_memory),
-        trajectory=steps,
-        trajectory_loop=answer.loop,
-        trajectory_probability=answer.run_probability,
-        trajectory_complete=answer.complete,
-        policy=policy,
-        verified=_verified_out(planned),
-        model=ModelSize(
-            states=answer.states,
-            product_states=answer.product_states,
-            automaton_states=answer.automaton_states,
-        ),
-        timing=Timing(total_s=round(seconds, 6)),
-    )
+    response.headers.update(headers)
+    if not isinstance(found, StoredJob):
+        return plan_out(found, time.perf_counter() - started)
+    if found.state == "succeeded":
+        return job_plan_out(found)
+    if found.state == "failed":
+        return response_of(job_problem(found))  # type: ignore[return-value]  # FastAPI passes responses on
+    headers |= {"Location": job_url(found.id), "Retry-After": "1"}
+    return JSONResponse(job_out(found).model_dump(mode="json"), status_code=202, headers=headers)  # type: ignore[return-value]

@@ -10,14 +10,13 @@ from typing import Any
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, Field
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import DataError, OperationalError
 from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
 from models.source import locate
-from service.errors import AmbiguousCommandError
-from service.http.schemas.common import ErrorPlace, QuestionOut
+from service.http.schemas.problems import ErrorPlace, Problem
+from service.refusals import refusal_data
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:cqltl:problem:"
@@ -37,6 +36,8 @@ STATUS: dict[str, int] = {
     "unknown-template": 404,
     "unknown-example": 404,
     "unknown-policy": 404,
+    "unknown-job": 404,
+    "idempotency-key-reused": 422,
     "environment-exists": 409,
     "template-conflict": 409,
     # formulas and queries
@@ -70,8 +71,10 @@ STATUS: dict[str, int] = {
     "device-unavailable": 422,
     "drawing-too-large": 422,
     "out-of-time": 422,
+    "out-of-memory": 422,
     # the service
     "overloaded": 503,
+    "worker-died": 503,
     "not-ready": 503,
     "spot-missing": 503,
 }
@@ -80,28 +83,24 @@ STATUS: dict[str, int] = {
 _log = logging.getLogger("cqltl")
 
 
-class Problem(BaseModel):
-    """An RFC 9457 problem."""
+def problem_of(data: Mapping[str, Any]) -> Problem:
+    """A problem of `service.refusals.refusal_data`; its status is that of its slug unless it is given."""
+    slug, members = data["slug"], {name: value for name, value in data.items() if name != "slug"}
+    return Problem.model_validate(
+        {"type": TYPE_PREFIX + slug, "title": slug.replace("-", " "), "status": STATUS[slug], **members}
+    )
 
-    type: str = Field(description="Stable URI of the kind of problem: `urn:cqltl:problem:` and its slug.")
-    title: str = Field(description="The kind of problem in words.")
-    status: int = Field(description="The HTTP status.")
-    detail: str = Field(description="What happened, in a sentence.")
-    errors: list[ErrorPlace] = Field(default_factory=list, description="The wrong places, where they can be named.")
-    line: int | None = Field(None, description="Line of a syntax error, from 1.")
-    column: int | None = Field(None, description="Column of a syntax error, from 1.")
-    caret: str | None = Field(None, description="The line of a syntax error with a caret under the column.")
-    choices: list[str] | None = Field(None, description="What an ambiguous phrase or command could mean.")
-    question: QuestionOut | None = Field(None, description="What an ambiguous command leaves open.")
+
+def response_of(problem: Problem) -> JSONResponse:
+    """The response that says it."""
+    headers = {"Retry-After": "1"} if problem.status == 503 else None
+    content = problem.model_dump(exclude_none=True)
+    return JSONResponse(content, status_code=problem.status, headers=headers, media_type=MEDIA_TYPE)
 
 
 def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
     """The response for a problem; `members` are further members of `Problem`."""
-    status = members.pop("status", STATUS[slug])
-    problem = Problem(type=TYPE_PREFIX + slug, title=slug.replace("-", " "), status=status, detail=detail, **members)
-    headers = {"Retry-After": "1"} if status == 503 else None
-    content = problem.model_dump(exclude_none=True)
-    return JSONResponse(content, status_code=status, headers=headers, media_type=MEDIA_TYPE)
+    return response_of(problem_of({"slug": slug, "detail": detail, **members}))
 
 
 def install(app: FastAPI) -> None:
@@ -110,20 +109,13 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(OperationalError, _store_unavailable)
+    app.add_exception_handler(DataError, _not_storable)
     app.add_exception_handler(Exception, _internal)
 
 
 def _refused(_request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, CqltlError)
-    members: dict[str, Any] = {
-        "errors": [ErrorPlace(pointer=place.pointer, detail=place.detail) for place in error.places]
-    }
-    members.update({name: getattr(error, name) for name in ("line", "column", "caret") if hasattr(error, name)})
-    if hasattr(error, "choices"):
-        members["choices"] = list(error.choices)
-    if isinstance(error, AmbiguousCommandError):
-        members["question"] = QuestionOut.of(error.question).model_dump()
-    return problem_response(error.slug, error.detail, **members)
+    return response_of(problem_of(refusal_data(error)))
 
 
 def _invalid(request: Request, error: Exception) -> JSONResponse:
@@ -182,6 +174,11 @@ def _http_error(_request: Request, error: Exception) -> JSONResponse:
 def _store_unavailable(request: Request, error: Exception) -> JSONResponse:
     _log.warning("%s %s: the store does not answer: %s", request.method, request.url.path, error)
     return problem_response("not-ready", "the store does not answer, or is locked by another writer; try again")
+
+
+def _not_storable(_request: Request, _error: Exception) -> JSONResponse:
+    """PostgreSQL's texts hold everything but U+0000."""
+    return problem_response("validation", "the request has a character that cannot be stored, such as U+0000")
 
 
 def _internal(request: Request, error: Exception) -> JSONResponse:

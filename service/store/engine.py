@@ -13,10 +13,23 @@ BUSY_TIMEOUT_S = 10.0
 WRITE = "cqltl_write"
 """Execution option of a connection that will write: SQLite then takes the write lock at once."""
 
+POOL = 20
+"""Connections to PostgreSQL that are kept; as many more may be open for a while."""
+
+
+def is_postgresql(url: str) -> bool:
+    """The URL names a PostgreSQL database."""
+    return make_url(url).get_backend_name() == "postgresql"
+
 
 def open_engine(url: str) -> Engine:
-    """An engine for the URL; for SQLite in WAL mode, with the folder of its file made when missing."""
+    """An engine for the URL: PostgreSQL, or SQLite in WAL mode, with the folder of its file made when missing."""
     parsed = make_url(url)
+    if is_postgresql(url):
+        # Connections that a restart of the database broke are replaced before they are used.
+        return create_engine(
+            parsed.set(drivername="postgresql+psycopg"), pool_pre_ping=True, pool_size=POOL, max_overflow=POOL
+        )
     if parsed.get_backend_name() != "sqlite":
         return create_engine(parsed)
     if parsed.database and parsed.database != ":memory:":

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 
-from sqlalchemy import Connection, delete, insert, select
+from sqlalchemy import Connection, delete, select
 
 from service.errors import UnknownPolicyError
+from service.store.dialect import insert_new
 from service.store.tables import policies
 
 
@@ -60,5 +61,4 @@ class PolicyRepository:
 
     def add(self, policy: StoredPolicy) -> None:
         """Store the policy if it is not stored yet."""
-        if self._connection.scalar(select(policies.c.id).where(policies.c.id == policy.id)) is None:
-            self._connection.execute(insert(policies).values(asdict(policy)))
+        insert_new(self._connection, policies, asdict(policy))

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection, Engine, insert, select, text
 
+from service.store.answers import AnswerRepository
+from service.store.dialect import lock_writers
 from service.store.engine import WRITE, open_engine
 from service.store.environments import EnvironmentRepository
+from service.store.jobs import JobRepository
 from service.store.policies import PolicyRepository
 from service.store.tables import facts
 from service.store.templates import TemplateRepository
@@ -36,6 +39,16 @@ class Transaction:
         """Policies by id."""
         return PolicyRepository(self.connection)
 
+    @property
+    def jobs(self) -> JobRepository:
+        """Jobs by id."""
+        return JobRepository(self.connection)
+
+    @property
+    def answers(self) -> AnswerRepository:
+        """Answers by idempotency key."""
+        return AnswerRepository(self.connection)
+
     def fact(self, name: str) -> str | None:
         """A single fact about the store, or None."""
         return self.connection.scalar(select(facts.c.value).where(facts.c.name == name))
@@ -58,11 +71,17 @@ class Store:
             yield Transaction(connection)
 
     @contextmanager
-    def write(self) -> Iterator[Transaction]:
-        """A transaction that holds the write lock from its start and commits at its end."""
+    def write(self, *, exclusive: bool = True) -> Iterator[Transaction]:
+        """A transaction that writes, and commits at its end.
+
+        It holds the lock of all `exclusive` writers from its start, so what it reads stays true until it writes.
+        Without it, only its single statements are sure to see what others committed; SQLite has one lock for all.
+        """
         with self._engine.connect() as connection:
             connection.execution_options(**{WRITE: True})
             with connection.begin():
+                if exclusive:
+                    lock_writers(connection)
                 yield Transaction(connection)
 
     def ping(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sqlalchemy import JSON, Column, Integer, LargeBinary, MetaData, String, Table, Text
+from sqlalchemy import JSON, Boolean, Column, Float, Index, Integer, LargeBinary, MetaData, String, Table, Text
 
 metadata = MetaData(
     naming_convention={"pk": "pk_%(table_name)s", "ix": "ix_%(table_name)s_%(column_0_name)s"},
@@ -52,6 +52,43 @@ policies = Table(
     Column("objective", String(3), nullable=False),  # max or min
     Column("world", Text, nullable=False),  # the environment in which it was planned, as JSON
     Column("data", LargeBinary, nullable=False),  # models.planning.to_bytes
+)
+
+jobs = Table(
+    "jobs",
+    metadata,
+    Column("id", String(32), primary_key=True),  # begins with the time, so the order of ids is that of acceptance
+    Column("state", String(10), nullable=False),  # queued, running, succeeded, failed, cancelled
+    Column("accepted", Boolean, nullable=False),  # a client was told of it; else it is somebody's wait
+    Column("queue", String(20), nullable=False),
+    Column("environment", String(200), nullable=False),
+    Column("ltl", Text, nullable=False),
+    Column("work", Text, nullable=False),  # what to plan, as JSON
+    Column("told", Text, nullable=False),  # what of the answer is known beforehand, as JSON
+    Column("progress", Text),  # JSON
+    Column("answer", Text),  # JSON; with a state of succeeded
+    Column("policy_id", String(64)),
+    Column("error", Text),  # the refusal, as JSON; with a state of failed
+    Column("attempts", Integer, nullable=False),  # times that a process took it up
+    Column("owner", String(64)),  # the process that runs it, or has it wait for one of its own
+    Column("lease_until", Float),  # when it may be taken from its owner; times are seconds since 1970
+    Column("created_at", Float, nullable=False),
+    Column("deadline", Float, nullable=False),
+    Column("ended_at", Float),
+    Index("ix_jobs_state", "state"),
+)
+
+kept_answers = Table(
+    "kept_answers",
+    metadata,
+    Column("operation", String(40), primary_key=True),
+    Column("key", String(255), primary_key=True),  # the Idempotency-Key
+    Column("digest", String(64), nullable=False),  # of the request
+    Column("job_id", String(32)),  # the job that is the answer, or the answer itself:
+    Column("status", Integer),
+    Column("location", Text),
+    Column("body", Text),
+    Column("created_at", Float, nullable=False),
 )
 
 facts = Table(

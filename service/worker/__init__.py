@@ -2,6 +2,7 @@
 them.
 """
 
+from service.worker.calls import Call, CallCancelled
 from service.worker.drawing import DrawingJob, DrawnFormat, run_drawing
 from service.worker.jobs import (
     Device,
@@ -15,15 +16,19 @@ from service.worker.jobs import (
     run_review,
 )
 from service.worker.pool import Workers
+from service.worker.progress import Progress
 from service.worker.simulation import SimulationAnswer, SimulationJob, run_simulation
 
 __all__ = [
+    "Call",
+    "CallCancelled",
     "Device",
     "DrawingJob",
     "DrawnFormat",
     "Objective",
     "PlanAnswer",
     "PlanJob",
+    "Progress",
     "ReviewJob",
     "SimulationAnswer",
     "SimulationJob",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -9,6 +10,8 @@ from typing import TYPE_CHECKING, Literal
 from models.logic import Formula, PropertyClass, classify, equivalent, parse
 from models.queries import Template, review
 from models.world import State, World
+from service.worker.child import board
+from service.worker.progress import Meter
 from service.worker.worlds import read_environment, read_world
 
 if TYPE_CHECKING:  # planning loads SciPy and numba, which the process for formula checks does without
@@ -25,6 +28,9 @@ SHARES = {"rounds": 0.3, "probability": 0.5, "steps": 0.7, "evaluate": 0.85}
 """Shares of the time for a plan at which the stages end that sweep; the rest is for the policy."""
 MAX_STEPS = 1_000
 """Most steps of a trajectory in an answer."""
+
+MOST_BYTES = 8 * 2**30
+"""Estimate of memory beyond which a plan is refused before it begins, or where the process may have less, that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,12 +118,14 @@ def run_plan(job: PlanJob) -> PlanAnswer:
     options = Options(
         epsilon=job.epsilon,
         max_states=job.max_states,
+        max_bytes=_most_bytes(),
         device=job.device,
         objective=job.objective,
         relevance=job.relevance,
         hurry=lambda stage: time.monotonic() - started > SHARES.get(stage, 1.0) * job.timeout_s,
     )
-    found = plan(world, job.formula, initial=initial, options=options)
+    meter = Meter(board(), epsilon=job.epsilon)
+    found = plan(world, job.formula, initial=initial, options=options, progress=meter)
     run = found.trajectory
     whole = run is not None and len(run.steps) <= MAX_STEPS
     return PlanAnswer(
@@ -149,6 +157,11 @@ def run_review(job: ReviewJob) -> tuple[str, ...]:
 def run_classification(formula: Formula) -> PropertyClass:
     """The class of a formula."""
     return classify(formula)
+
+
+def _most_bytes() -> int:
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return MOST_BYTES if limit == resource.RLIM_INFINITY else min(MOST_BYTES, limit)
 
 
 def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedState, int, str | None], ...]:

@@ -1,76 +1,203 @@
-"""Pools of processes with a deadline per task: one pool plans, one checks formulas."""
+"""Pools of child processes with a deadline per call: one pool plans, one checks formulas."""
 
 from __future__ import annotations
 
 import asyncio
+import logging
+import threading
+import time
 from collections.abc import Callable
-from typing import TypeVar
+from multiprocessing.context import ForkServerContext
+from queue import SimpleQueue
+from typing import Any, TypeVar
 
-from pebble import ProcessExpired, ProcessFuture, ProcessPool
-
-from service.errors import OutOfTimeError, OverloadedError
+from service.errors import OverloadedError, WorkerDiedError
 from service.forkserver import context
+from service.worker.calls import Call, CallCancelled
+from service.worker.child import Child
 from service.worker.jobs import warm_logic, warm_planning
 
 T = TypeVar("T")
 A = TypeVar("A")
 
+ATTEMPTS = 3
+"""Times that a call is begun whose process dies; what it computes is the same each time."""
+
+RETRY_S = 0.2
+"""Pause after a process could not be started."""
+
+_log = logging.getLogger("cqltl")
+
+
+class Pool:
+    """Some processes, each with a thread that gives it one call after the other."""
+
+    def __init__(
+        self, size: int, *, initializer: Callable[[], None], context: ForkServerContext, memory_bytes: int = 0
+    ) -> None:
+        self._size = size
+        self._context, self._initializer, self._memory_bytes = context, initializer, memory_bytes
+        self._calls: SimpleQueue[Call[Any] | None] = SimpleQueue()
+        self._running: set[Call[Any]] = set()
+        self._stopped = False
+        self._threads: list[threading.Thread] = []
+
+    def start(self, *, warm: bool) -> None:
+        """Start the threads. Processes start with the first call of each, or now when `warm`."""
+        self._threads = [
+            threading.Thread(target=self._work, args=(warm,), name="cqltl-pool", daemon=True) for _ in range(self._size)
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    def submit(self, call: Call[Any]) -> None:
+        """Have it run when a process is free."""
+        if not self._threads or self._stopped:
+            raise RuntimeError("the workers are not started")
+        self._calls.put(call)
+
+    def stop(self) -> None:
+        """Kill the processes and whatever they do; calls that wait are cancelled."""
+        self._stopped = True
+        for call in list(self._running):
+            call.cancel()
+        for _ in self._threads:
+            self._calls.put(None)
+        for thread in self._threads:
+            thread.join()
+
+    def _work(self, warm: bool) -> None:
+        child = self._replaced(None) if warm else None
+        while (call := self._calls.get()) is not None:
+            if self._stopped:
+                call.cancel()
+            if not call.future.set_running_or_notify_cancel():
+                continue
+            self._running.add(call)
+            child = self._run(call, child)
+            self._running.discard(call)
+        if child is not None:
+            child.close()
+
+    def _run(self, call: Call[Any], child: Child | None) -> Child | None:
+        """Run the call to its end; the process for the next one, None where none could be started."""
+        for attempt in range(1, ATTEMPTS + 1):
+            child = child if child is not None and child.usable else self._replaced(child)
+            try:
+                if child is None:
+                    raise WorkerDiedError("no process could be started to work on this")
+                call.future.set_result(call.attempt(child))
+                break
+            except WorkerDiedError as error:
+                if call.cancelled:
+                    call.future.set_exception(CallCancelled())
+                    break
+                if attempt == ATTEMPTS or self._stopped:
+                    call.future.set_exception(error)
+                    break
+            except BaseException as error:
+                call.future.set_exception(error)
+                break
+        return child if child is not None and child.usable else self._replaced(child)
+
+    def _replaced(self, child: Child | None) -> Child | None:
+        """A new process in place of one that is of no use any more; None where none can be started now."""
+        if child is not None:
+            child.close()
+        try:
+            return None if self._stopped else Child(self._context, self._initializer, self._memory_bytes)
+        except (OSError, EOFError) as error:  # also where the fork server was killed; the next try starts a new one
+            _log.warning("no worker process could be started: %r", error)
+            time.sleep(RETRY_S)
+            return None
+
 
 class Workers:
-    """Runs jobs in child processes, and kills the process of a job whose time is spent.
+    """Runs calls in child processes, and kills the process of a call whose time is spent.
 
     Formula checks have a pool of their own, so that `/learn` never waits behind a long plan.
     """
 
-    def __init__(self, *, planners: int, max_waiting: int) -> None:
-        self._context = context()
-        self._planners, self._max_waiting = planners, max_waiting
-        self._plan_pool: ProcessPool | None = None
-        self._logic_pool: ProcessPool | None = None
-        self._pending = {"plan": 0, "check": 0}
+    def __init__(self, *, planners: int, max_waiting: int, memory_bytes: int = 0) -> None:
+        found = context()
+        self.planners = planners
+        self._most = planners + max_waiting
+        self._pools = {
+            "plan": Pool(planners, initializer=warm_planning, context=found, memory_bytes=memory_bytes),
+            "check": Pool(1, initializer=warm_logic, context=found, memory_bytes=memory_bytes),
+        }
+        self._pending = dict.fromkeys(self._pools, 0)
+        self._lock = threading.Lock()
 
     def start(self, *, warm: bool) -> None:
-        """Open the pools; processes start with the first job, or now and with everything loaded when `warm`."""
-        self._plan_pool = ProcessPool(self._planners, initializer=warm_planning, context=self._context)
-        self._logic_pool = ProcessPool(1, initializer=warm_logic, context=self._context)
-        if warm:
-            self._plan_pool.schedule(warm_planning)  # each process also does so as its initializer
-            self._logic_pool.schedule(warm_logic)
+        """Open the pools; processes start with the first call, or now and with everything loaded when `warm`."""
+        for pool in self._pools.values():
+            pool.start(warm=warm)
 
     def stop(self) -> None:
         """Kill the processes and whatever they do."""
-        for pool in (self._plan_pool, self._logic_pool):
-            if pool is not None:
-                pool.stop()  # type: ignore[no-untyped-call]  # pebble annotates only some of its methods
-                pool.join()
+        for pool in self._pools.values():
+            pool.stop()
 
-    async def plan(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:
-        """Run `function(job)` in a planning process.
+    async def plan(self, function: Callable[[A], T], argument: A, *, timeout_s: float) -> T:
+        """Run `function(argument)` in a planning process.
 
         Raises:
             OutOfTimeError: it took longer than `timeout_s` seconds, from its start.
-            OverloadedError: too many jobs wait already.
+            OutOfMemoryError: it needed more memory than a process may have.
+            WorkerDiedError: its process died, and so did those in which it was tried again.
+            OverloadedError: too many calls wait already.
         """
-        return await self._run("plan", self._plan_pool, function, job, timeout_s)
+        return await _finished(self._begin("plan", function, argument, timeout_s))
 
-    async def check(self, function: Callable[[A], T], job: A, *, timeout_s: float) -> T:
-        """Run `function(job)` in the process for formula checks; raises like `plan`."""
-        return await self._run("check", self._logic_pool, function, job, timeout_s)
+    async def check(self, function: Callable[[A], T], argument: A, *, timeout_s: float) -> T:
+        """Run `function(argument)` in the process for formula checks; raises like `plan`."""
+        return await _finished(self._begin("check", function, argument, timeout_s))
 
-    async def _run(
-        self, queue: str, pool: ProcessPool | None, function: Callable[[A], T], job: A, timeout_s: float
-    ) -> T:
-        if pool is None:
-            raise RuntimeError("the workers are not started")
-        if self._pending[queue] >= self._planners + self._max_waiting:
-            raise OverloadedError(f"{self._pending[queue]} requests wait for a worker; try again later")
-        self._pending[queue] += 1
+    def begin(self, function: Callable[[A], T], argument: A, *, timeout_s: float, always: bool = False) -> Call[T]:
+        """Have `function(argument)` run in a planning process, for the caller to follow.
+
+        Raises `OverloadedError`, but not where it was accepted earlier and has to run: `always`.
+        """
+        return self._begin("plan", function, argument, timeout_s, always=always)
+
+    def check_room(self) -> None:
+        """Raise `OverloadedError` where no further plan can wait."""
+        self._check_room("plan")
+
+    @property
+    def free(self) -> int:
+        """Planning processes that have nothing to do."""
+        return max(0, self.planners - self._pending["plan"])
+
+    def _begin(
+        self, name: str, function: Callable[[A], T], argument: A, timeout_s: float, *, always: bool = False
+    ) -> Call[T]:
+        call = Call(function, argument, timeout_s)
+        with self._lock:
+            if not always:
+                self._check_room(name)
+            self._pending[name] += 1
+        call.future.add_done_callback(lambda _: self._ended(name))
         try:
-            future: ProcessFuture[T] = pool.schedule(function, args=[job], timeout=timeout_s)
-            return await asyncio.wrap_future(future)
-        except TimeoutError:
-            raise OutOfTimeError(f"stopped after {timeout_s:g} s without an answer") from None
-        except ProcessExpired as error:
-            raise OverloadedError(f"the worker process died ({error}); it may have run out of memory") from None
-        finally:
-            self._pending[queue] -= 1
+            self._pools[name].submit(call)
+        except BaseException:
+            call.cancel()
+            raise
+        return call
+
+    def _check_room(self, name: str) -> None:
+        if self._pending[name] >= self._most:
+            raise OverloadedError(f"{self._pending[name]} requests wait for a worker; try again later")
+
+    def _ended(self, name: str) -> None:
+        with self._lock:
+            self._pending[name] -= 1
+
+
+async def _finished(call: Call[T]) -> T:
+    try:
+        return await call.result()
+    except asyncio.CancelledError:
+        call.cancel()
+        raise

@@ -13,6 +13,7 @@ import httpx
 import pytest
 
 from benchmarks.server import serving
+from tests.service.postgres import Postgres
 
 PROBLEM = "urn:cqltl:problem:"
 MEMBERS = {"type", "title", "status", "detail", "errors", "line", "column", "caret", "choices", "question"}
@@ -25,6 +26,14 @@ def client() -> Iterator[httpx.Client]:
     """A client of a server with a new store, shared by the tests: each uses names of its own."""
     with serving() as found:
         yield found
+
+
+@pytest.fixture(scope="session")
+def postgres() -> Iterator[Postgres]:
+    """A PostgreSQL server; skips with what to install where there is none."""
+    found = Postgres()
+    yield found
+    found.stop()
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ import httpx
 import pytest
 import yaml
 
+from benchmarks.server import serving
 from models.world import toys_spec
 from tests.service.conftest import run_cli
 
@@ -130,3 +131,31 @@ def test_a_port_that_is_taken(client: httpx.Client, tmp_path: Path) -> None:
     assert result.returncode == 1
     assert "--port" in result.stderr
     assert not (tmp_path / "unused").exists()
+
+
+def test_a_worker_needs_postgresql(tmp_path: Path) -> None:
+    result = run_cli("worker", data=tmp_path)
+    assert result.returncode == 2
+    assert "CQLTL_DATABASE_URL" in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_worker_takes_only_queues_that_there_are(tmp_path: Path) -> None:
+    result = run_cli("worker", "--queues", "plan,cpu", data=tmp_path)
+    assert result.returncode == 2
+    assert "plan and gpu" in result.stderr
+
+
+def test_a_plan_that_becomes_a_job_is_waited_for(tmp_path: Path) -> None:
+    with serving(tmp_path / "server", CQLTL_WAIT_S="0") as client:
+        server = ["--server", str(client.base_url)]
+        planned = run_cli("plan", "Pickup the sphere", "--environment", "toys-4x1-sphere", *server, data=tmp_path)
+        assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr
+        (job,) = client.get("/jobs").json()["items"]
+        assert job["state"] == "succeeded"
+
+
+def test_without_a_server_no_plan_becomes_a_job(tmp_path: Path) -> None:
+    arguments = ["plan", "Pickup the sphere", "--environment", "toys-4x1-sphere"]
+    planned = run_cli(*arguments, data=tmp_path, CQLTL_WAIT_S="0")
+    assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr

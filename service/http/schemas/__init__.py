@@ -4,7 +4,6 @@ from service.http.schemas.common import (
     AnswerIn,
     BindingOut,
     ContextualQueryTree,
-    ErrorPlace,
     Health,
     QuestionOut,
     Request,
@@ -12,6 +11,7 @@ from service.http.schemas.common import (
 )
 from service.http.schemas.environments import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.schemas.explanations import ExplainRequest, ExplainResponse, ExplanationPart, KindOut
+from service.http.schemas.jobs import JobEvent, JobList, JobOut, JobProgress, JobRow, JobTiming
 from service.http.schemas.language import (
     BatchRequest,
     BatchResponse,
@@ -55,6 +55,7 @@ from service.http.schemas.policies import (
     StepResponse,
     VariableOut,
 )
+from service.http.schemas.problems import ErrorPlace, Problem
 
 __all__ = [
     "AnswerIn",
@@ -77,6 +78,12 @@ __all__ = [
     "GroundRequest",
     "GroundResponse",
     "Health",
+    "JobEvent",
+    "JobList",
+    "JobOut",
+    "JobProgress",
+    "JobRow",
+    "JobTiming",
     "KindOut",
     "LearnRequest",
     "ModelSize",
@@ -90,6 +97,7 @@ __all__ = [
     "PolicyOut",
     "PolicyRow",
     "PolicySummary",
+    "Problem",
     "QuestionOut",
     "Request",
     "RoundSteps",

@@ -85,13 +85,6 @@ class BindingOut(BaseModel):
     things: list[ThingOut] = Field(description="All that is meant.")
 
 
-class ErrorPlace(BaseModel):
-    """One wrong place of the request."""
-
-    pointer: str = Field(description="JSON pointer into the request body; empty for the whole.")
-    detail: str = Field(description="What is wrong there.")
-
-
 class QuestionOut(BaseModel):
     """A question to ask back. It is answered by sending the request again with its choice in `answers`."""
 

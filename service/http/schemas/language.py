@@ -13,7 +13,6 @@ from service.http.schemas.common import (
     Command,
     ContextualQueryTree,
     EnvironmentName,
-    ErrorPlace,
     FormulaText,
     QueryText,
     QuestionOut,
@@ -21,6 +20,7 @@ from service.http.schemas.common import (
     State,
     TranslatorName,
 )
+from service.http.schemas.problems import ErrorPlace
 
 _STATE = (
     "How things stand, for phrases that go by it (`the toy in the box`); what is left out is as in the initial state."

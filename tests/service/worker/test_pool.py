@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import time
 from collections.abc import Coroutine, Iterator
+from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
 
 from models.errors import Place
 from models.logic import FormulaSyntaxError
-from service.errors import OutOfTimeError, OverloadedError
-from service.worker import Workers
+from service.errors import OutOfMemoryError, OutOfTimeError, OverloadedError, WorkerDiedError
+from service.worker import CallCancelled, Workers
+from service.worker.child import board
+from service.worker.progress import Meter
 
 T = TypeVar("T")
 
@@ -66,7 +70,7 @@ def test_a_job_beyond_its_time_is_killed_and_the_next_one_runs(workers: Workers)
 
 
 def test_a_process_that_dies_takes_nobody_with_it(workers: Workers) -> None:
-    with pytest.raises(OverloadedError, match="died"):
+    with pytest.raises(WorkerDiedError, match="died"):
         run(workers.plan(die, 3, timeout_s=30))
     assert run(workers.plan(double, 1, timeout_s=30)) == 2
 
@@ -80,3 +84,122 @@ def test_too_many_waiting_are_refused(workers: Workers) -> None:
     assert sum(isinstance(outcome, OverloadedError) for outcome in outcomes) == 3
     assert outcomes.count(None) == 3
     assert run(workers.plan(double, 1, timeout_s=30)) == 2
+
+
+def spin(_: None) -> None:
+    """Native code that holds the interpreter and never looks at signals."""
+    sum(range(10**12))
+
+
+def hoard(count: int) -> int:
+    return len(bytearray(count))
+
+
+def die_once(mark: str) -> int:
+    if not Path(mark).exists():
+        Path(mark).touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return 7
+
+
+def report(_: None) -> None:
+    Meter(board(), epsilon=1e-6)("steps", 3, 1.5, 2.5, 99)
+    time.sleep(60)
+
+
+@pytest.mark.parametrize("function", [time.sleep, spin], ids=["sleeping", "native"])
+def test_cancelling_kills_at_once(workers: Workers, function: Any) -> None:
+    async def cancelled() -> float:
+        call = workers.begin(function, 60 if function is time.sleep else None, timeout_s=60)
+        while not call.started:
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.1)
+        began = time.monotonic()
+        call.cancel()
+        with pytest.raises(CallCancelled):
+            await call.result()
+        return time.monotonic() - began
+
+    assert run(cancelled()) < 1.0
+    assert run(workers.plan(double, 1, timeout_s=30)) == 2
+
+
+def test_a_call_that_waits_can_be_cancelled(workers: Workers) -> None:
+    async def cancelled() -> None:
+        first, second = workers.begin(time.sleep, 1, timeout_s=9), workers.begin(double, 1, timeout_s=9)
+        second.cancel()
+        with pytest.raises(CallCancelled):
+            await second.result()
+        assert not first.future.done()
+        assert await first.result() is None
+
+    run(cancelled())
+
+
+def test_whoever_stops_waiting_for_a_plan_ends_it(workers: Workers) -> None:
+    async def given_up() -> None:
+        with pytest.raises(TimeoutError):
+            await asyncio.wait_for(workers.plan(time.sleep, 60, timeout_s=60), 0.3)
+
+    run(given_up())
+    began = time.monotonic()
+    assert run(workers.plan(double, 1, timeout_s=30)) == 2
+    assert time.monotonic() - began < 20
+
+
+def test_an_idle_process_that_is_killed_is_replaced(workers: Workers) -> None:
+    for _ in range(3):
+        os.kill(run(workers.plan(own_id, None, timeout_s=30)), signal.SIGKILL)
+    assert run(workers.plan(double, 1, timeout_s=30)) == 2
+
+
+def own_id(_: None) -> int:
+    return os.getpid()
+
+
+def test_a_call_whose_process_is_killed_is_run_again(workers: Workers, tmp_path: Path) -> None:
+    assert run(workers.plan(die_once, str(tmp_path / "mark"), timeout_s=30)) == 7
+
+
+def test_progress_is_seen_while_a_call_runs(workers: Workers) -> None:
+    async def seen() -> None:
+        call = workers.begin(report, None, timeout_s=60)
+        while call.progress is None:
+            await asyncio.sleep(0.01)
+        found = call.progress
+        assert (found.stage, found.sweep, found.lower, found.upper, found.states) == ("steps", 3, 1.5, 2.5, 99)
+        call.cancel()
+        with pytest.raises(CallCancelled):
+            await call.result()
+        assert call.progress is None
+
+    run(seen())
+
+
+def test_beyond_the_limit_of_memory_is_a_refusal_and_the_memory_comes_back() -> None:
+    limit = 4 * 2**30
+    limited = Workers(planners=1, max_waiting=2, memory_bytes=limit)
+    limited.start(warm=True)
+    try:
+        before = run(limited.plan(own_id, None, timeout_s=30))
+        assert run(limited.plan(hoard, 2**20, timeout_s=30)) == 2**20
+        with pytest.raises(OutOfMemoryError, match=str(limit)):
+            run(limited.plan(hoard, limit, timeout_s=30))
+        assert run(limited.plan(own_id, None, timeout_s=30)) != before, "its memory went with the process"
+    finally:
+        limited.stop()
+
+
+def test_stopping_ends_whatever_runs_or_waits() -> None:
+    found = Workers(planners=1, max_waiting=2)
+    found.start(warm=False)
+
+    async def stopped() -> list[object]:
+        calls = [asyncio.ensure_future(found.begin(time.sleep, 60, timeout_s=60).result()) for _ in range(2)]
+        await asyncio.sleep(0.2)
+        began = time.monotonic()
+        await asyncio.to_thread(found.stop)
+        assert time.monotonic() - began < 5
+        return await asyncio.gather(*calls, return_exceptions=True)
+
+    assert [type(outcome) for outcome in run(stopped())] == [CallCancelled, CallCancelled]
