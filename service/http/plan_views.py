@@ -8,7 +8,7 @@ from typing import Any
 
 from models.logic import to_text as formula_text
 from models.world import Environment
-from service.http.problems import Problem, problem_of
+from service.http.problems import problem_of
 from service.http.schemas import (
     Bounds,
     JobOut,
@@ -23,6 +23,7 @@ from service.http.schemas import (
     TrajectoryStep,
     VerifiedOut,
 )
+from service.http.schemas.problems import Problem
 from service.http.views import bindings_out, query_out
 from service.jobs import Planned, planned
 from service.store import StoredJob
