@@ -9,17 +9,22 @@ from __future__ import annotations
 import os
 import random
 import re
+from collections.abc import Iterator
 from fractions import Fraction
+from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
 import spot
+from pebble import ProcessPool
 
 from models.logic import parse
 from models.planning import Options, Plan, check, plan
 from tests.planning.doubles import ArrayWorld
 
 stormpy = pytest.importorskip("stormpy")
+STORM_S = 60.0
+"""Longest that Storm is waited for, in seconds."""
 MODELS = int(os.environ.get("CQLTL_STORM_MODELS", "200"))
 FRESH = random.SystemRandom().randrange(10**9)
 
@@ -72,25 +77,35 @@ def random_formula(seed: int, pick: random.Random) -> tuple[str, str, list[str]]
     return ours, plain, atoms
 
 
-def storm_value(model: object, formula: str, objective: str, initial: int) -> float:
+def storm_value(file: Path, formula: str, objective: str, initial: int) -> float:
     """Storm's LTL model checking, in rational numbers."""
+    model = stormpy.build_model_from_drn(file)
     query = stormpy.parse_properties(f"P{objective}=? [{formula}]")[0]
     found = stormpy.model_checking(model, query, environment=stormpy.environments.exact())
     return float(found.get_value_vector()[initial])
 
 
-def agree(seed: int, file: Path) -> bool:
-    """Compare one MDP; returns whether its value lies strictly between 0 and 1."""
+@pytest.fixture(scope="module")
+def storm() -> Iterator[ProcessPool]:
+    """A process for Storm, which does not end on some formulas."""
+    with ProcessPool(1, context=get_context("fork")) as pool:
+        yield pool
+
+
+def agree(storm: ProcessPool, seed: int, file: Path) -> bool | None:
+    """Compare one MDP; returns whether its value lies strictly between 0 and 1, None where Storm does not end."""
     pick = random.Random(seed)
     ours, plain, atoms = random_formula(seed, pick)
     world = random_mdp(pick, atoms)
     file.write_text(as_drn(world))
-    model = stormpy.build_model_from_drn(file)
     between = False
     for objective in ("max", "min"):
         found = plan(world, parse(ours), options=Options(objective=objective))  # type: ignore[arg-type]
         try:
-            value = storm_value(model, plain, objective, world.initial)
+            asked = (file, plain, objective, world.initial)
+            value = storm.schedule(storm_value, args=asked, timeout=STORM_S).result()
+        except TimeoutError:
+            return None
         except RuntimeError as error:
             if "acc-name" not in str(error):  # a few automata are beyond Storm's reader
                 raise
@@ -114,12 +129,16 @@ def attained(world: ArrayWorld, found: Plan, objective: str, where: str) -> None
 
 
 @pytest.mark.parametrize("block", range(4))
-def test_the_bounds_contain_storms_value_and_the_policy_attains_it(block: int, tmp_path: Path) -> None:
+def test_the_bounds_contain_storms_value_and_the_policy_attains_it(
+    block: int, storm: ProcessPool, tmp_path: Path
+) -> None:
     count = MODELS // 4
-    between = [agree(seed, tmp_path / "model.drn") for seed in range(block * count, block * count + count)]
-    assert sum(between) > count / 20  # not only the easy ones
+    found = [agree(storm, seed, tmp_path / "model.drn") for seed in range(block * count, block * count + count)]
+    assert found.count(True) > count / 20  # not only the easy ones
+    assert found.count(None) <= count / 100  # seed 1970 is one on which stormpy 2.0 does not end
 
 
-def test_the_same_for_a_fresh_seed(tmp_path: Path) -> None:
-    for seed in range(FRESH, FRESH + max(50, MODELS // 10)):
-        agree(seed, tmp_path / "model.drn")
+def test_the_same_for_a_fresh_seed(storm: ProcessPool, tmp_path: Path) -> None:
+    count = max(50, MODELS // 10)
+    found = [agree(storm, seed, tmp_path / "model.drn") for seed in range(FRESH, FRESH + count)]
+    assert found.count(None) <= max(1, count / 100)
