@@ -24,11 +24,13 @@ from typing import Any, Literal
 import torch
 import yaml
 
-from models.language import BEAM_WIDTH, ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
-from models.language.reading import rank
+from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
+from models.language.hearing import Hearing, Lessons
+from models.language.matching import Matcher, Shelf, TaughtTask
+from models.language.matching.cards import cards_of
 from models.logic import Atom, Formula, atoms, equivalent, map_atoms, parse
 from models.queries import Example, Template, learn, parse_task, resolve_grounded
-from models.world import Environment, builtin_environments, load_environment
+from models.world import Environment, builtin_environments, explain, load_environment
 
 Part = Literal["development", "held-out"]
 PARTS: tuple[Part, ...] = ("development", "held-out")
@@ -60,9 +62,9 @@ class Count:
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """A translator with templates and environments."""
+    """What the service hears with, with templates and environments."""
 
-    translator: ComposedTranslator
+    hearing: Hearing
     templates: Mapping[str, Template]
     environments: Mapping[str, Environment]
 
@@ -72,18 +74,23 @@ class Bench:
         environments = {name: load_environment(data) for name, data in builtin_environments()}
         seeds = yaml.safe_load((files("service") / "seeds.yaml").read_text(encoding="utf-8"))["templates"]
         pairs = [(seed["contextual_query"], seed["ltl"], seed["environment"]) for seed in seeds]
-        templates = {}
+        translator, matcher = ComposedTranslator.load(SpanTranslator.load()), Matcher.load()
+        utterances = [Utterance.of(wording, parse_task(PUT_IN[0])) for wording in PUT_IN_WORDINGS]
+        templates, shelf = {}, []
         for said, ltl, environment in (*pairs, (*PUT_IN, "toys")):
-            query = parse_task(said)
-            templates[query.task] = learn([Example(query, parse(ltl))], environments[environment])
-        taught = TaughtTranslator.of(Utterance.of(wording, parse_task(PUT_IN[0])) for wording in PUT_IN_WORDINGS)
-        translator = ComposedTranslator.load(SpanTranslator.load()).knowing(taught)
-        return cls(translator, templates, environments)
+            query, world = parse_task(said), environments[environment]
+            template = templates[query.task] = learn([Example(query, parse(ltl))], world)
+            examples = matcher.known(utterances) if said == PUT_IN[0] else []
+            cards = matcher.known(cards_of(query, explain(template.formula, world)))
+            shelf.append(TaughtTask(query.task, template.arity, tuple(examples), tuple(cards)))
+        functions = {task: frozenset(a.function for a in atoms(t.formula)) for task, t in templates.items()}
+        wordings = TaughtTranslator.of(utterances)
+        lessons = Lessons(wordings, Shelf.of(shelf), matcher, functions, translator.tasks)
+        return cls(Hearing(translator, lessons, templates.get), templates, environments)
 
     def formula(self, text: str, environment: Environment) -> Formula | Literal["unknown"] | None:
         """What the best reading of a text means; None where that means nothing in the environment."""
-        said = self.translator.translate(text, candidates=BEAM_WIDTH)
-        readings = rank(text, said, template_of=self.templates.get, environment=environment)
+        readings = self.hearing.readings(text, environment, candidates=1)
         if not readings:
             return "unknown"
         return None if readings[0].grounded is None else readings[0].grounded.formula
@@ -109,7 +116,7 @@ class Bench:
 
     def refusals(self, texts: Sequence[str]) -> Count:
         """Texts that ask for nothing; right is to understand nothing."""
-        heard = [text for text in texts if self.translator.translate(text)]
+        heard = [text for text in texts if self.hearing.readings(text, None, candidates=1)]
         return Count(right=len(texts) - len(heard), wrong=len(heard), failures=heard)
 
 

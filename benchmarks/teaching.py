@@ -97,7 +97,7 @@ class Bench:
                 environment = self.worlds[task.world]
                 for number, wording in enumerate(task.wordings):
                     query = generator.choice(task.queries)
-                    text = _filled(wording, query)
+                    text = filled(wording, query)
                     started = time.perf_counter()
                     found = hearing.readings(text, environment, candidates=1)
                     seconds.append(time.perf_counter() - started)
@@ -144,7 +144,8 @@ def _meaning(task: Task, query: ContextualQuery, environment: Environment) -> Fo
     return evaluate(task.template, query, environment).formula
 
 
-def _filled(wording: str, query: ContextualQuery) -> str:
+def filled(wording: str, query: ContextualQuery) -> str:
+    """A wording of the things of a query."""
     return re.sub(r"\{(\d)\}", lambda slot: query.arguments[int(slot[1]) - 1], wording)
 
 

@@ -40,7 +40,19 @@ class Lessons:
 
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """See `Translator`: as it was taught, or else what means the same."""
-        return self.wordings.translate(text, candidates=candidates) or self.near(text, candidates=candidates)
+        return self.translate_all([text], candidates=candidates)[0]
+
+    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
+        """As `translate`, for several texts at once."""
+        exact = {text: self.wordings.translate(text, candidates=candidates) for text in texts}
+        rest = [text for text, found in exact.items() if not found]
+        near = self.matcher.match_all(rest, self.shelf, candidates=candidates)
+        found = exact | {text: self._taught(said) for text, said in zip(rest, near, strict=True)}
+        return [found[text] for text in texts]
+
+    def _taught(self, found: Sequence[Translation]) -> tuple[Translation, ...]:
+        """Without the tasks that the networks know."""
+        return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
 
     def near(self, text: str, *, candidates: int, environment: Environment | None = None) -> tuple[Translation, ...]:
         """What means the same as a task that was taught and that makes sense in the environment."""
@@ -53,7 +65,7 @@ class Lessons:
             return () if environment is None else mentions(said, environment)
 
         found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits, named=named)
-        return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
+        return self._taught(found)
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""

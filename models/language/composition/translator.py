@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Self
+from typing import Protocol, Self
 
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
@@ -16,7 +16,7 @@ from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
-from models.language.translation import BEAM_WIDTH, Translation, Translator
+from models.language.translation import BEAM_WIDTH, Translation
 from models.queries import ContextualQuery, Query, QuerySyntaxError
 
 NAME = "composition"
@@ -27,7 +27,7 @@ ALONE = 0.5
 CERTAIN = 0.9
 """Probability of being one task from which a sequence is not looked at."""
 TAUGHT = 0.9
-"""Share of the taught readings of a clause that was taught; the environment may turn it round."""
+"""Most share of the taught readings of a clause; the environment may turn it round."""
 LEAST = 0.02
 """Ways to put clauses together that are less probable are not looked at."""
 LEAST_SHARE = 0.1
@@ -42,6 +42,13 @@ _PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
 _Shape = tuple[str, tuple[Clause, ...], tuple[str, ...], float]
 
 
+class Taught(Protocol):
+    """What understands clauses as they were taught."""
+
+    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
+        """The readings of each text, best first, with confidences that add up to at most 1; raises TextTooLongError."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ComposedTranslator:
     """Reads which clauses a text has and how they belong together; each is translated alone.
@@ -53,7 +60,7 @@ class ComposedTranslator:
 
     reader: SpanReader
     single: SpanTranslator
-    taught: Translator | None = None
+    taught: Taught | None = None
 
     @classmethod
     def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
@@ -65,7 +72,7 @@ class ComposedTranslator:
         """The task classes that it was trained on."""
         return frozenset(task for task, _ in self.single.reader.model.network.config.tasks)
 
-    def knowing(self, taught: Translator) -> Self:
+    def knowing(self, taught: Taught) -> Self:
         """The same, with clauses that are said as they were taught."""
         return replace(self, taught=taught)
 
@@ -148,30 +155,38 @@ class _Clauses:
     """What clauses may say: as they were taught, or else as they are read; each is read once."""
 
     single: SpanTranslator
-    taught: Translator | None
+    taught: Taught | None
     _read: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
+    _known: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
 
     def __call__(self, text: str, /) -> Sequence[Translation]:
         """See `Understand`."""
         self.prepare([text])
         read = self._read[text]
-        taught = () if self.taught is None else self.taught.translate(text, candidates=BEAM_WIDTH)
+        taught = self._known.get(text, ())
         if not taught:
             return read
         known = {translation.query for translation in taught}
+        total = sum(translation.confidence for translation in taught)
         first = [replace(t, confidence=TAUGHT * t.confidence) for t in taught]
-        return [*first, *(replace(t, confidence=(1 - TAUGHT) * t.confidence) for t in read if t.query not in known)]
+        rest = [replace(t, confidence=(1 - TAUGHT * total) * t.confidence) for t in read if t.query not in known]
+        return sorted([*first, *rest], key=lambda t: -t.confidence)
 
     def alone(self, text: str) -> tuple[Translation, ...]:
         """What the whole text says as one task, not counting what was taught."""
-        self.prepare([text])
+        if text not in self._read:
+            self._read[text] = self.single.translate(text, candidates=BEAM_WIDTH)
         return self._read[text]
 
     def prepare(self, texts: Iterable[str], /) -> None:
         """See `Understand`."""
+        texts = list(texts)
         new = [text for text in dict.fromkeys(texts) if text not in self._read]
         if new:
             self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
+        unknown = [text for text in dict.fromkeys(texts) if text not in self._known]
+        if unknown and self.taught is not None:
+            self._known.update(zip(unknown, self.taught.translate_all(unknown, candidates=BEAM_WIDTH), strict=True))
 
 
 def _outvoted(understood: float, refusal: float) -> bool:

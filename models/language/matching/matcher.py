@@ -150,11 +150,37 @@ class Matcher:
         Raises:
             TextTooLongError: the text is beyond the limits of a command.
         """
-        said = words(text)
-        if not said or not shelf.tasks:
-            return ()
+        return self.match_all([text], shelf, candidates=candidates, fits=fits, named=named)[0]
+
+    def match_all(
+        self,
+        texts: Sequence[str],
+        shelf: Shelf,
+        *,
+        candidates: int,
+        fits: Callable[[str], bool] = bool,
+        named: Callable[[tuple[str, ...]], Sequence[Span]] = _nothing_named,
+    ) -> list[tuple[Translation, ...]]:
+        """As `match`, for several texts at once, which is faster than one after the other."""
+        spoken = [words(text) for text in texts]
+        asked = [said for said in dict.fromkeys(spoken) if said and shelf.tasks]
+        found = {
+            said: self._matched(said, vectors, shelf, candidates, fits, named(said))
+            for said, vectors in zip(asked, self._vectors(asked), strict=True)
+        }
+        return [found.get(said, ()) for said in spoken]
+
+    def _matched(
+        self,
+        said: tuple[str, ...],
+        vectors: torch.Tensor,
+        shelf: Shelf,
+        candidates: int,
+        fits: Callable[[str], bool],
+        named: Sequence[Span],
+    ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
-        for task, mentions, likely in self._tasks(said, shelf, fits, named(said)):
+        for task, mentions, likely in self._tasks(self._seen(said, vectors, named), shelf, fits):
             for order, part in task.orders(mentions):
                 phrases = tuple(" ".join(plain(said[slice(*mentions.spans[place])])) for place in order)
                 query = ContextualQuery(task.task.task, phrases)
@@ -162,21 +188,29 @@ class Matcher:
         ranked = sorted(found, key=lambda query: (-found[query], str(query)))
         return tuple(Translation(q, min(1.0, found[q])) for q in ranked[:candidates] if found[q] >= LEAST)
 
+    @torch.inference_mode()
+    def _vectors(self, texts: Sequence[tuple[str, ...]]) -> list[torch.Tensor]:
+        """[S, D] of the words of each text."""
+        if not texts:
+            return []
+        read = self.model.network.words(self.encoder.read_pieces(texts))
+        return [read[row, : len(text)] for row, text in enumerate(texts)]
+
     def nearest(self, text: str, shelf: Shelf, *, count: int) -> tuple[tuple[str, float], ...]:
         """The tasks on the shelf that are nearest to a text, with their nearness from -1 to 1."""
         said = words(text)
         if not said or not shelf.tasks:
             return ()
-        commands = np.stack([seen.command for seen in self._seen(said)])
+        (vectors,) = self._vectors([said])
+        commands = np.stack([seen.command for seen in self._seen(said, vectors)])
         near = np.maximum(*shelf.nearness(commands)).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, said: tuple[str, ...], shelf: Shelf, fits: Callable[[str], bool], named: Sequence[Span]
+        self, seen: Sequence[_Seen], shelf: Shelf, fits: Callable[[str], bool]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together."""
-        seen = self._seen(said, named)
         examples, cards = shelf.nearness(np.stack([way.command for way in seen]))
         points = self.model.points(examples, cards)  # [M, K]
         arities = np.array([task.arity for task in shelf.tasks])
@@ -191,10 +225,9 @@ class Matcher:
                     yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
 
     @torch.inference_mode()
-    def _seen(self, said: tuple[str, ...], named: Sequence[Span] = ()) -> list[_Seen]:
-        """The likeliest ways to see what a text mentions; what is named in it is one."""
+    def _seen(self, said: tuple[str, ...], vectors: torch.Tensor, named: Sequence[Span] = ()) -> list[_Seen]:
+        """The likeliest ways to see what a text with the vectors [S, D] mentions; what is named in it is one."""
         network = self.model.network
-        vectors = network.words(self.encoder.read_pieces([said]))[0]  # [S, D]
         emissions = network.tags(vectors[None])[0].double().numpy()
         moves = (network.transition + network.allowed).double().numpy()
         start = network.allowed_start.double().numpy()

@@ -122,6 +122,10 @@ class TaughtTranslator:
         """From utterances; raises as `Wording.of`."""
         return cls(tuple(dict.fromkeys(map(Wording.of, utterances))))
 
+    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
+        """As `translate`, of each text."""
+        return [self.translate(text, candidates=candidates) for text in texts]
+
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """The queries of the wordings that match, the most literal wordings first.
 
