@@ -49,13 +49,13 @@ class Services:
         workers: Workers,
         jobs: Executor,
         translators: Translators,
-        closing: threading.Event,
+        closing: threading.Event | None = None,
     ) -> None:
         self.settings = settings
         self.store = store
         self.workers = workers
         self.jobs = jobs
-        self.closing = closing
+        self.closing = closing or threading.Event()
         self.translators = translators
         self._policy = lru_cache(maxsize=16)(self._read_policy)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)
