@@ -52,13 +52,13 @@ class Services:
         workers: Workers,
         jobs: Executor,
         translators: Translators,
-        closing: threading.Event,
+        closing: threading.Event | None = None,
     ) -> None:
         self.settings = settings
         self.store = store
         self.workers = workers
         self.jobs = jobs
-        self.closing = closing
+        self.closing = closing or threading.Event()
         self.translators = translators
         self._taught = TaughtCache()
         self._utterances = KnownCache()

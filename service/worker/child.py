@@ -13,6 +13,7 @@ from collections.abc import Callable
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext
+from pathlib import Path
 from typing import Any
 
 from models.errors import CqltlError
@@ -21,6 +22,9 @@ from service.worker import progress
 
 PR_SET_PDEATHSIG = 1
 """Linux's prctl(2): the signal that a process gets when its parent ends."""
+
+NVIDIA = Path("/proc/driver/nvidia")
+"""There where a GPU is. CUDA reserves far more address space than it uses, and does not start where that is limited."""
 
 _board: list[progress.Board] = []
 """In the child: the board that its parent reads."""
@@ -112,7 +116,7 @@ def _serve(connection: Connection, initializer: Callable[[], None], memory_bytes
     _die_with_parent()
     _board[:] = [shared]
     initializer()
-    if memory_bytes:
+    if memory_bytes and not NVIDIA.exists():
         resource.setrlimit(resource.RLIMIT_AS, (memory_bytes, memory_bytes))
     try:
         connection.send(True)

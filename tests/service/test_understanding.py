@@ -13,6 +13,7 @@ from models.language.copynet import FormulaTranslation
 from models.logic import parse, to_text
 from models.queries import parse_query
 from models.world import Environment, builtin_environments, load_environment
+from service.jobs import EmbeddedExecutor
 from service.services import Services
 from service.settings import Settings
 from service.store import Store, StoredExample, StoredTemplate
@@ -69,7 +70,8 @@ def services(tmp_path: Path, network: Said, ltl: Formulas) -> Iterator[Services]
             transaction.templates.put(stored)
     translators = Translators({"default": lambda: network, "cq-copynet": lambda: network}, {"ltl-copynet": lambda: ltl})
     workers = Workers(planners=1, max_waiting=0)
-    yield Services(settings=settings, store=store, workers=workers, translators=translators)
+    jobs = EmbeddedExecutor(store, workers, settings)
+    yield Services(settings=settings, store=store, workers=workers, jobs=jobs, translators=translators)
     store.close()
 
 
