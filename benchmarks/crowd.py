@@ -2,9 +2,9 @@
 
     python -m benchmarks.crowd [--tasks 0 100 500] [--most 30]
 
-The tasks are those of `models/language/dataset/tasks`, as often as it takes, each with one example and its card; those of
-one argument get a template that makes sense wherever the paper's commands are asked, so that they do compete. Asked are
-commands of the paper's sets S and U in their environments, so many of each task class; right is the exact formula.
+The tasks are those of `models/language/dataset/tasks`, as often as it takes, each with one example and its card; those
+of one argument get a template that makes sense wherever the paper's commands are asked, so that they do compete. Asked
+are commands of the paper's sets S and U in their environments, so many of each task class; right is the exact formula.
 Times are those of translating and grounding, on one thread.
 """
 
