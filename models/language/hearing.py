@@ -14,12 +14,19 @@ from models.language.composition import ComposedTranslator
 from models.language.matching import Matcher, Shelf
 from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
 from models.language.teaching import TaughtTranslator
+from models.language.tokens import words
 from models.language.translation import BEAM_WIDTH, Translation, Translator
-from models.queries import Template
+from models.queries import ContextualQuery, Template
 from models.world import Environment, mentions
 
 MATCHED = 12
 """Readings by nearness that are looked at: the environment may make sense of a later one only."""
+HEARD = 0.5
+"""Probability of any taught task from which one is heard."""
+HEARD_OF_THINGS = 0.03
+"""The same for a text that names things of the environment: that is hardly said to a robot there for nothing."""
+DOUBTED = 0.3
+"""What is left of the probability of a composition around one taught task."""
 SURE = 0.995
 """No network is believed more than this."""
 
@@ -50,8 +57,17 @@ class Lessons:
         found = exact | {text: self._taught(said) for text, said in zip(rest, near, strict=True)}
         return [found[text] for text in texts]
 
-    def _taught(self, found: Sequence[Translation]) -> tuple[Translation, ...]:
-        """Without the tasks that the networks know."""
+    def doubted(self, heard: Translation) -> Translation:
+        """A composition around one taught task is rather that task in other words: "no lamp should be left on"."""
+        tasks = [task.task for _, task in heard.query.tasks]
+        if isinstance(heard.query, ContextualQuery) or len(tasks) > 1 or tasks[0] in self.own:
+            return heard
+        return replace(heard, confidence=DOUBTED * heard.confidence)
+
+    def _taught(self, found: Sequence[Translation], *, least: float = HEARD) -> tuple[Translation, ...]:
+        """Without the tasks that the networks know; nothing where all together are not probable."""
+        if sum(translation.confidence for translation in found) <= least:
+            return ()
         return tuple(t for t in found if self.own.isdisjoint(task.task for _, task in t.query.tasks))
 
     def near(self, text: str, *, candidates: int, environment: Environment | None = None) -> tuple[Translation, ...]:
@@ -65,7 +81,8 @@ class Lessons:
             return () if environment is None else mentions(said, environment)
 
         found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits, named=named)
-        return self._taught(found)
+        about = environment is not None and any(named(words(text)))
+        return self._taught(found, least=HEARD_OF_THINGS if about else HEARD)
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""
@@ -102,6 +119,7 @@ class Hearing:
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted)
         if not exact:
+            heard = tuple(lessons.doubted(translation) for translation in heard)
             near = lessons.near(text, candidates=MATCHED, environment=environment)
             heard = weighed(near, heard)
         ranked = rank(text, heard, template_of=self.template_of, environment=environment)

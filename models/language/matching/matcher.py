@@ -39,6 +39,10 @@ NAMED = 0.75
 """Probability that a command is about all that it names in the environment, and nothing else."""
 
 
+LIKELIER = 1.5
+"""Logarithm of how much likelier than others a text is to be a command that names things of the environment."""
+
+
 def _nothing_named(_said: tuple[str, ...]) -> Sequence[Span]:
     return ()
 
@@ -217,7 +221,7 @@ class Matcher:
         fitting = np.array([fits(task.task) for task in shelf.tasks])
         for row, way in enumerate(seen):
             usable = fitting & (arities == len(way.spans))
-            odds = np.where(usable, np.exp(points[row]), 0.0)
+            odds = np.where(usable, np.exp(points[row] + (LIKELIER if way.named else 0.0)), 0.0)
             total = 1.0 + odds.sum()  # 1 for none of them
             for place in np.argsort(-odds, kind="stable")[:SEQUENCES]:
                 likely = float(way.probability * odds[place] / total)
@@ -239,8 +243,9 @@ class Matcher:
             ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
         free = torch.tensor([_free(len(said), spans) for spans in ways])
         commands = network.commands(vectors.expand(len(ways), -1, -1), free).numpy()
+        known = _distinct(said, named)
         return [
-            _Seen(spans, share, command, self._roles(vectors, spans))
+            _Seen(spans, share, command, self._roles(vectors, spans), bool(named) and spans == known)
             for (spans, share), command in zip(ways.items(), commands, strict=True)
         ]
 
@@ -259,6 +264,7 @@ class _Seen:
     probability: float
     command: Vectors  # [V]
     roles: Vectors  # [mentions, R]
+    named: bool  # whether the mentions are what the text names in the environment
 
 
 @dataclass(frozen=True, slots=True, eq=False)

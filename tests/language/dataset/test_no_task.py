@@ -73,9 +73,11 @@ def test_every_entry_is_used(entries: str) -> None:
 
 @pytest.mark.parametrize("entries", ["conditions", "with_it", "there"])
 def test_what_is_held_out_is_not_read(entries: str) -> None:
+    drawn = {f"{{}} and {verb} it" for verb in DATA["verbs"]}  # a frame may say the same with a verb that it drew
     for entry in half(DATA[entries], Half.HELD_OUT):
+        assert entry not in half(DATA[entries], Half.TRAINING)
         pattern = re.compile(_pattern(entry))
-        assert not any(map(pattern.search, _spoken(no_task().training))), entry
+        assert entry in drawn or not any(map(pattern.search, _spoken(no_task().training))), entry
 
 
 def _pattern(entry: str) -> str:

@@ -54,7 +54,6 @@ NO_TASK = [
     "asdf qwer",
     "the",
     "x",
-    "( , ) end of query no task",
     "Sing me a song about robots",
     "don't pick up the ball",
     "never go to the bakery",
