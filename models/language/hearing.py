@@ -15,7 +15,7 @@ from models.language.matching import Matcher, Shelf
 from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
 from models.language.teaching import TaughtTranslator
 from models.language.tokens import words
-from models.language.translation import BEAM_WIDTH, Translation, Translator
+from models.language.translation import BEAM_WIDTH, Translation, Translator, weighed
 from models.queries import ContextualQuery, Template
 from models.world import Environment, mentions
 
@@ -27,8 +27,6 @@ HEARD_OF_THINGS = 0.03
 """The same for a text that names things of the environment: that is hardly said to a robot there for nothing."""
 DOUBTED = 0.3
 """What is left of the probability of a composition around one taught task."""
-SURE = 0.995
-"""No network is believed more than this."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,24 +123,6 @@ class Hearing:
         ranked = rank(text, heard, template_of=self.template_of, environment=environment)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         return merged(taught, ranked)[:candidates]
-
-
-def weighed(near: Sequence[Translation], heard: Sequence[Translation]) -> tuple[Translation, ...]:
-    """The readings of two sources together: the odds of each are lowered by how sure the other is."""
-    if not near or not heard:
-        return (*near, *heard)
-    sums = [sum(translation.confidence for translation in source) for source in (near, heard)]
-    first, second = (min(SURE, total) for total in sums)
-    one, other = first * (1.0 - second), second * (1.0 - first)
-    scale = (first + second - first * second) / (one + other)  # of one of them being right at all
-    found: dict[object, Translation] = {}
-    for source, share, total in ((near, one * scale, sums[0]), (heard, other * scale, sums[1])):
-        for translation in source:
-            part = translation.confidence / total * share
-            known = found.get(translation.query)
-            sure = part if known is None else part + known.confidence
-            found[translation.query] = replace(translation, confidence=min(1.0, sure))
-    return tuple(sorted(found.values(), key=lambda t: (-t.confidence, str(t.query))))
 
 
 def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from models.language import Translation
-from models.language.hearing import weighed
+from models.language.translation import weighed
 from models.queries import ContextualQuery
 
 A, B, C = (ContextualQuery(name, ("x",)) for name in "abc")

@@ -16,7 +16,7 @@ from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
-from models.language.translation import BEAM_WIDTH, Translation
+from models.language.translation import BEAM_WIDTH, Translation, weighed
 from models.queries import ContextualQuery, Query, QuerySyntaxError
 
 NAME = "composition"
@@ -166,6 +166,8 @@ class _Clauses:
         taught = self._known.get(text, ())
         if not taught:
             return read
+        if sum(translation.confidence for translation in taught) < CERTAIN:
+            return weighed(taught, read)
         known = {translation.query for translation in taught}
         total = sum(translation.confidence for translation in taught)
         first = [replace(t, confidence=TAUGHT * t.confidence) for t in taught]
