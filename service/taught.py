@@ -61,7 +61,8 @@ class Taught:
 
     def _task(self, stored: StoredTemplate, matcher: Matcher, known: KnownCache) -> TaughtTask:
         examples = known.of([read_example(example) for example in stored.examples], matcher)
-        cards = known.of(cards_of(parse_task(stored.pairs[0].contextual_query), stored.words), matcher)
+        queries = [parse_task(pair.contextual_query) for pair in stored.pairs[:1]]
+        cards = known.of([card for query in queries for card in cards_of(query, stored.words)], matcher)
         return TaughtTask(stored.task, stored.arity, examples, cards)
 
     def conflicts(self, example: StoredExample) -> tuple[str, ...]:
