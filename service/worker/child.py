@@ -8,6 +8,7 @@ import pickle
 import resource
 import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable
 from multiprocessing import forkserver
@@ -25,6 +26,11 @@ PR_SET_PDEATHSIG = 1
 
 NVIDIA = Path("/proc/driver/nvidia")
 """There where a GPU is. CUDA reserves far more address space than it uses, and does not start where that is limited."""
+
+_processes = threading.Lock()
+"""Held by whoever starts a process or asks for its end: to start one asks for the ends of all others, and two threads
+must not read the same one.
+"""
 
 _board: list[progress.Board] = []
 """In the child: the board that its parent reads."""
@@ -44,7 +50,8 @@ class Child:
         arguments = (theirs, initializer, memory_bytes, self.board)
         self._process = context.Process(target=_serve, args=arguments, name="cqltl-worker", daemon=True)
         try:
-            self._process.start()
+            with _processes:
+                self._process.start()
         except BaseException:
             self._connection.close()
             raise
@@ -55,7 +62,8 @@ class Child:
     @property
     def usable(self) -> bool:
         """It can be given a further call."""
-        return not self._killed and self._process.is_alive()
+        with _processes:
+            return not self._killed and self._process.is_alive()
 
     def prepare(self) -> None:
         """Wait until everything is loaded; raises `WorkerDiedError`."""
@@ -92,8 +100,9 @@ class Child:
     def close(self) -> None:
         """Kill it and free what it holds here."""
         self._process.kill()
-        self._process.join()
-        self._process.close()
+        with _processes:
+            self._process.join()
+            self._process.close()
         self._connection.close()
 
     def _receive(self, timeout_s: float | None) -> Any:
@@ -106,7 +115,8 @@ class Child:
             raise self._died() from None
 
     def _died(self) -> WorkerDiedError:
-        self._process.join()
+        with _processes:
+            self._process.join()
         return WorkerDiedError(f"the process that worked on this died (status {self._process.exitcode})")
 
 

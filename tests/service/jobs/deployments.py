@@ -151,7 +151,7 @@ def order(client: httpx.Client, body: dict[str, Any], **headers: str) -> str:
     return str(response.headers["location"])
 
 
-def wait_for(client: httpx.Client, url: str, *states: str, within_s: float = 60.0) -> dict[str, Any]:
+def wait_for(client: httpx.Client, url: str, *states: str, within_s: float = 180.0) -> dict[str, Any]:
     """The job once it is in one of the states."""
     until = time.monotonic() + within_s
     while True:
