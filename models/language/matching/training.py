@@ -26,7 +26,7 @@ WORLDS = 3
 class Settings:
     """The hyper-parameters of a run."""
 
-    steps: int = 600
+    steps: int = 300
     tasks: int = 32  # compared in a step
     refused: int = 16  # texts in a step that ask for nothing
     learning_rate: float = 1e-3  # AdamW; falls to zero along a cosine
@@ -85,7 +85,7 @@ def _losses(network: MatchNet, course: Course, settings: Settings, generator: ra
     commands = network.commands(vectors, free)
     return {
         "commands": _contrast(commands[: len(texts)], owners, commands[len(texts) :]),
-        "tags": 0.3 * _tagging(network, vectors, tags, lengths),
+        "tags": 0.3 * _tagging(network, *(part[: len(texts)] for part in (vectors, tags, lengths))),
         "roles": 0.3 * _role_loss(network, drawn, vectors),
     }
 
