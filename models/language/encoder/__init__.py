@@ -1,5 +1,6 @@
 """What words mean where they stand: MiniLM, a small language model, read once and never trained here."""
 
+from models.language.encoder.memory import RememberingReader, WordReader
 from models.language.encoder.minilm import Encoder, encoder
 
-__all__ = ["Encoder", "encoder"]
+__all__ = ["Encoder", "RememberingReader", "WordReader", "encoder"]
