@@ -1,4 +1,4 @@
-"""What the networks of the default translator are taught for an evaluation: lifted commands, as they are and renamed."""
+"""What the default translator's networks are taught for an evaluation: lifted commands, as they are and renamed."""
 
 from __future__ import annotations
 

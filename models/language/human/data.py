@@ -75,10 +75,12 @@ def read_utterances(folder: Path) -> list[Utterance]:
 
 def _rows(file: Path, columns: tuple[str, ...], *, delimiter: str) -> Iterator[tuple[int, Mapping[str, str]]]:
     """The rows with their line numbers."""
-    quoting = csv.QUOTE_NONE if delimiter == "\t" else csv.QUOTE_MINIMAL
+    quotes = None if delimiter == "\t" else '"'  # a tab-separated file has none
     try:
         with file.open(encoding="utf-8", newline="") as lines:
-            reader = csv.DictReader(lines, delimiter=delimiter, quoting=quoting)
+            reader = csv.DictReader(
+                lines, delimiter=delimiter, quotechar=quotes, quoting=csv.QUOTE_MINIMAL if quotes else csv.QUOTE_NONE
+            )
             if missing := sorted(set(columns) - set(reader.fieldnames or ())):
                 raise HumanDataError(f"{file} lacks the column {missing[0]}")
             for row in reader:

@@ -14,7 +14,7 @@ from models.language.tokens import words
 
 DATASETS = ("drone", "cleanup", "pick")
 Words = tuple[str, ...]
-_CONTRACTION = re.compile(r"\b(\w+n) ?['’]?t\b")  # "do n't", "don t"; not "not"
+_CONTRACTION = re.compile(r"\b(\w+n)(?: ['’]?|['’])t\b")  # "don t", "don 't"
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,5 +103,5 @@ def occurrences(spoken: Sequence[str], known: Mapping[Words, str]) -> list[tuple
 
 
 def plain(text: str) -> str:
-    """A text without what the published files did to it: contractions cut apart, and with words joined by a stroke apart."""
+    """A text in lower case with contractions whole ("do n't") and with words that a stroke joins apart."""
     return _CONTRACTION.sub(r"\1't", text.lower().replace("/", " ").replace("-", " ").replace("do n't", "don't"))

@@ -84,12 +84,11 @@ def record(extent: Extent) -> dict[str, Any]:
 
 
 def _splits(folder: Path, name: str, setting: str, commands: Sequence[Command], extent: Extent) -> Iterable[Split]:
-    splits = {
-        "folds": lambda: five_folds(commands),
-        "few": lambda: [Split("few", read_few(folder, name), commands)],
-        "unseen": lambda: unseen_formulas(commands, extent.seeds),
-    }[setting]()
-    for split in list(splits)[: extent.splits]:
+    if setting == "few":
+        splits = [Split("few", read_few(folder, name), commands)]
+    else:
+        splits = list(five_folds(commands) if setting == "folds" else unseen_formulas(commands, extent.seeds))
+    for split in splits[: extent.splits]:
         yield Split(split.name, split.training, split.test[: extent.tested])
 
 

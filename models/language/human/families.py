@@ -22,7 +22,7 @@ LONGEST_BLOCK = 16
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A proposition of a rule: number `offset`, from the first, from the last, or from the one that a block is about."""
+    """A proposition of a rule: number `offset` from the first, from the last, or from the one that a turn is about."""
 
     origin: str  # "first", "last" or "turn"
     offset: int
@@ -89,10 +89,18 @@ def infer(known: Sequence[Known]) -> Rule | None:
     loops = 1 if single else MOST_LOOPS
     starts = [0] * len(formulas)
     rules = [Rule(parts) for origin in ("last", "first") for parts in _rows(formulas, starts, origin, loops)]
-    repeating = [rule for rule in rules if any(part.extra is not None for part in rule.parts)]
+    repeating = [
+        rule for rule in rules if any(part.extra is not None for part in rule.parts) and _goes_on(rule, formulas[0])
+    ]
     if single:
         repeating = [rule for rule in repeating if rule.size < len(formulas[0].words)]
     return min(repeating, key=lambda rule: (rule.size, len(rule.parts)), default=None)
+
+
+def _goes_on(rule: Rule, longest: Known) -> bool:
+    """Whether a rule says the length after the longest, with one proposition more unless it counts the only one."""
+    counting = longest.propositions < longest.length
+    return rule.formula(longest.length + 1, longest.propositions + (not counting)) is not None
 
 
 def _rows(known: Sequence[Known], at: Sequence[int], origin: str, loops: int) -> Iterator[tuple[Part, ...]]:
@@ -148,7 +156,7 @@ def _blocks(words: tuple[Word, ...], begin: int) -> Iterator[tuple[Pattern, int]
 
 @cache
 def _block(words: tuple[Word, ...], *, moving: bool) -> Pattern | None:
-    """The words as a block: its propositions move on by one in each turn, or stay. None when there is nothing to move."""
+    """The words as a block: its propositions move on by one in each turn, or stay. None with nothing to move."""
     if moving and all(isinstance(word, str) for word in words):
         return None
     origin = "turn" if moving else "first"

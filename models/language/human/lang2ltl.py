@@ -94,11 +94,12 @@ class WaypointSystem:
         pairs = list(zip(utterances, sentences, strict=True))
         kinds = [families.kind(utterance, sentence) for utterance, sentence in pairs]
         orders = [order for pair in pairs if (order := families.order(*pair)) is not None]
-        readers = []
-        for number, (name, commands) in enumerate(zip(plan.starts, (kinds, orders), strict=True)):
-            readers.append(_fitted(commands, name, seed=seed + number, plan=plan))
-            log(f"network {number + 1} of 2")
-        return cls(*readers, families)
+        kind_start, order_start = plan.starts
+        kind_reader = _fitted(kinds, kind_start, seed=seed, plan=plan)
+        log("network 1 of 2")
+        order_reader = _fitted(orders, order_start, seed=seed + 1, plan=plan)
+        log("network 2 of 2")
+        return cls(kind_reader, order_reader, families)
 
     def formulas(self, sentences: Sequence[Sentence]) -> list[str]:
         """The formula of each sentence; empty when none can be said."""

@@ -39,12 +39,12 @@ def measure(
 
 
 def summary(runs: Sequence[Sequence[Outcome]]) -> dict[str, Any]:
-    """Rates over runs: the mean over the runs, each run's, and over all test commands those of duplicates and others."""
+    """Rates of each run, and over all test commands those of duplicates and of the others."""
     every = [outcome for run in runs for outcome in run]
     return {
         "tested": [len(run) for run in runs],
-        "right": [rate(run, "right") for run in runs],
-        "baseline": [rate(run, "baseline") for run in runs],
+        "right": [_right(run) for run in runs],
+        "baseline": [_baseline(run) for run in runs],
         "duplicates": _part([outcome for outcome in every if outcome.duplicate]),
         "others": _part([outcome for outcome in every if not outcome.duplicate]),
     }
@@ -53,9 +53,12 @@ def summary(runs: Sequence[Sequence[Outcome]]) -> dict[str, Any]:
 def _part(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     if not outcomes:
         return {"tested": 0, "right": None, "baseline": None}
-    return {"tested": len(outcomes), "right": rate(outcomes, "right"), "baseline": rate(outcomes, "baseline")}
+    return {"tested": len(outcomes), "right": _right(outcomes), "baseline": _baseline(outcomes)}
 
 
-def rate(outcomes: Sequence[Outcome], system: str) -> float:
-    """The part of the commands that a system, `right` or `baseline`, got right."""
-    return sum(getattr(outcome, system) for outcome in outcomes) / len(outcomes)
+def _right(outcomes: Sequence[Outcome]) -> float:
+    return sum(outcome.right for outcome in outcomes) / len(outcomes)
+
+
+def _baseline(outcomes: Sequence[Outcome]) -> float:
+    return sum(outcome.baseline for outcome in outcomes) / len(outcomes)

@@ -72,7 +72,7 @@ class SpanSystem:
 
 def grounded(sentence: Sentence, reading: SpanReading) -> tuple[str, ...] | None:
     """The thing that each argument names, or None when one names none or several."""
-    things = []
+    things: list[str] = []
     for spans in reading.mentions:
         named = {name.thing for begin, end in spans for name in sentence.names if name.begin < end and begin < name.end}
         if len(named) != 1:

@@ -123,9 +123,15 @@ def exchangeable(known: Known) -> bool:
     """Whether neighbouring propositions may be exchanged in a prefix formula: operands of `&` and `|` have no order."""
     same = normal(known.words)
     return all(
-        normal([{one: other, other: one}.get(word, word) for word in known.words]) == same
+        normal([_exchanged(word, one, other) for word in known.words]) == same
         for one, other in pairwise(range(known.propositions))
     )
+
+
+def _exchanged(word: Word, one: int, other: int) -> Word:
+    if word == one:
+        return other
+    return one if word == other else word
 
 
 def normal(spoken: Sequence[Word]) -> str:

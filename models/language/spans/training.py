@@ -68,8 +68,8 @@ def train(
     """Fit a network to what a course teaches.
 
     One thread is fastest. The same seed gives the same model on the same kind of machine. `log` is called after every
-    epoch. Without `words`, words are read with the encoder that is installed. With `start`, a network of the same sizes,
-    reading is not learned from nothing: see `SpanNet.reading_like`.
+    epoch. Without `words`, words are read with the encoder that is installed. With `start`, a network of the same
+    sizes, reading is not learned from nothing: see `SpanNet.reading_like`.
 
     Raises:
         TrainingError: no epoch is asked for.
