@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from models.errors import CqltlError
+from models.language.errors import VocabularyError
 
 FOLDS = 5
 SOURCES = (
@@ -17,10 +17,8 @@ SOURCES = (
 )
 
 
-class HumanDataError(CqltlError):
+class HumanDataError(VocabularyError):
     """A file of commands is missing, or not what it must be."""
-
-    slug = "invalid-human-data"
 
 
 @dataclass(frozen=True, slots=True)
