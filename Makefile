@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz check format openapi train evaluate bench bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz check format openapi train evaluate evaluate-human bench bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -33,6 +33,9 @@ train: $(VENV)/.dev
 
 evaluate: $(VENV)/.dev
 	$(BIN)/python -m models.language.evaluate
+
+evaluate-human: $(VENV)/.dev  # commands that people wrote: DATA is the folder with the published files
+	$(BIN)/python -m models.language.human --data '$(DATA)'
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.table2

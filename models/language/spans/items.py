@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from models.language.dataset import Example
-from models.language.encoder import Encoder
+from models.language.encoder import WordReader
 from models.language.spans.network import SpanConfig, SpanNet, TextBatch, log_likelihood
 from models.language.spans.tags import Span, tags_of
 from models.language.teaching.utterance import DETERMINERS
@@ -95,7 +95,7 @@ def batches(items: Sequence[Item], size: int, generator: random.Random) -> Itera
 def likelihood(
     network: SpanNet,
     items: Sequence[Item],
-    encoder: Encoder,
+    encoder: WordReader,
     *,
     hidden: Sequence[Sequence[bool]] | None = None,
     temperature: float = 1.0,
@@ -105,7 +105,7 @@ def likelihood(
 
 
 def likelihoods(
-    network: SpanNet, items: Sequence[Item], encoder: Encoder, *, hidden: Sequence[Sequence[bool]] | None = None
+    network: SpanNet, items: Sequence[Item], encoder: WordReader, *, hidden: Sequence[Sequence[bool]] | None = None
 ) -> Callable[[float], Tensor]:
     """As `likelihood`, by temperature: the texts are read once for all temperatures."""
     config = network.config

@@ -19,9 +19,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn.utils.rnn import pack_padded_sequence, pad_packed_sequence
 
-from models.language.encoder import Encoder
+from models.language.encoder import WordReader
 from models.language.spans.crf import log_partition, score
-from models.language.spans.tags import MAX_ARGUMENTS, TAGS, forbidden_moves
+from models.language.spans.tags import MOST_ARGUMENTS, forbidden_moves, tag_count
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +47,18 @@ class SpanConfig:
     def __post_init__(self) -> None:
         if len(set(self.words)) != len(self.words) or len(dict(self.tasks)) != len(self.tasks):
             raise ValueError("a network knows every word and every task once")
-        if not all(1 <= arity <= MAX_ARGUMENTS for _, arity in self.tasks):
-            raise ValueError(f"a task has between 1 and {MAX_ARGUMENTS} arguments")
+        if not all(0 <= arity <= MOST_ARGUMENTS for _, arity in self.tasks):
+            raise ValueError(f"a task has between 0 and {MOST_ARGUMENTS} arguments")
 
     @property
     def no_task(self) -> int:
         """The output that says that no task fits, K."""
         return len(self.tasks)
+
+    @property
+    def tags(self) -> int:
+        """L."""
+        return tag_count(arity for _, arity in self.tasks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +74,7 @@ class TextBatch:
         cls,
         texts: Sequence[Sequence[str]],
         numbers: Mapping[str, int],
-        encoder: Encoder,
+        encoder: WordReader,
         *,
         hidden: Sequence[Sequence[bool]] | None = None,
     ) -> Self:
@@ -101,7 +106,7 @@ class SpanNet(nn.Module):
     def __init__(self, config: SpanConfig) -> None:
         super().__init__()
         self.config = config
-        tasks, states = len(config.tasks), 2 * config.encoder
+        tasks, tags, states = len(config.tasks), config.tags, 2 * config.encoder
         self.embedding = nn.Embedding(len(config.words) + 1, config.embedding)
         self.projection = nn.Linear(config.vector, config.projection)
         self.dropout = nn.Dropout(config.dropout)
@@ -114,11 +119,29 @@ class SpanNet(nn.Module):
             bidirectional=True,
         )
         self.task = nn.Linear(2 * states, tasks + 1)
-        self.tag = nn.Linear(states, tasks * TAGS)
-        self.transition = nn.Parameter(torch.zeros(tasks, TAGS, TAGS))
-        rules = [forbidden_moves(arity) for _, arity in config.tasks]
+        self.tag = nn.Linear(states, tasks * tags)
+        self.transition = nn.Parameter(torch.zeros(tasks, tags, tags))
+        rules = [forbidden_moves(arity, tags) for _, arity in config.tasks]
         self.register_buffer("allowed", torch.tensor([moves for moves, _ in rules]), persistent=False)  # [K, L, L]
         self.register_buffer("allowed_start", torch.tensor([start for _, start in rules]), persistent=False)  # [K, L]
+
+    @torch.no_grad()
+    def reading_like(self, other: SpanNet) -> None:
+        """Take over how another network reads: its embeddings of the words that both know, and all layers below the
+        heads. What tasks and tags are made of it stays to be learned.
+
+        Raises ValueError when the layers differ in size.
+        """
+        numbers = {word: number for number, word in enumerate(other.config.words, start=1)}
+        for number, word in enumerate(self.config.words, start=1):
+            if word in numbers:
+                self.embedding.weight[number] = other.embedding.weight[numbers[word]]
+        self.embedding.weight[0] = other.embedding.weight[0]
+        for mine, others in ((self.projection, other.projection), (self.encoder, other.encoder)):
+            theirs = others.state_dict()
+            if any(theirs[name].shape != tensor.shape for name, tensor in mine.state_dict().items()):
+                raise ValueError("a network can read only like one of the same sizes")
+            mine.load_state_dict(theirs)
 
     def forward(self, batch: TextBatch) -> Scores:
         """Score the tasks and the tags of every word."""
@@ -132,7 +155,7 @@ class SpanNet(nn.Module):
         states = self.dropout(states)
         return Scores(
             tasks=self.task(self.dropout(torch.cat([highest, mean], dim=1))),
-            emissions=self.tag(states).unflatten(2, (len(self.config.tasks), TAGS)),
+            emissions=self.tag(states).unflatten(2, (len(self.config.tasks), self.config.tags)),
         )
 
 
@@ -151,7 +174,7 @@ def log_likelihood(
     if not bool(asked.any()):
         return task
     kinds, lengths = tasks[asked], batch.lengths[asked]  # [N], [N]
-    places = kinds[:, None, None, None].expand(-1, scores.emissions.shape[1], 1, TAGS)
+    places = kinds[:, None, None, None].expand(-1, scores.emissions.shape[1], 1, scores.emissions.shape[3])
     emissions = scores.emissions[asked].gather(2, places).squeeze(2) / temperature  # [N, S, L]
     transitions = (network.transition / temperature + network.allowed)[kinds]  # [N, L, L]
     start = network.allowed_start[kinds]  # [N, L]

@@ -9,7 +9,7 @@ from typing import Self
 
 import torch
 
-from models.language.encoder import Encoder, encoder
+from models.language.encoder import WordReader, encoder
 from models.language.spans.decoding import TagScores, best_sequences, log_total
 from models.language.spans.model import SpanModel
 from models.language.spans.network import TextBatch
@@ -43,18 +43,18 @@ class SpanReader:
     """Reads folded words."""
 
     model: SpanModel
-    encoder: Encoder
+    encoder: WordReader
     _numbers: Mapping[str, int] = field(repr=False)
     _transitions: TagScores = field(repr=False)  # [K, L, L]
     _start: TagScores = field(repr=False)  # [K, L]
 
     @classmethod
-    def of(cls, model: SpanModel) -> Self:
-        """The reader of a model."""
+    def of(cls, model: SpanModel, words: WordReader | None = None) -> Self:
+        """The reader of a model; without `words`, it reads words with the encoder that is installed."""
         network = model.network
         numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
         transitions = network.transition.detach().double() / model.temperature + network.allowed
-        return cls(model, encoder(), numbers, transitions.numpy(), network.allowed_start.double().numpy())
+        return cls(model, words or encoder(), numbers, transitions.numpy(), network.allowed_start.double().numpy())
 
     def read(self, spoken: Sequence[str]) -> Read:
         """The readings of one text, and the probability that no class fits."""

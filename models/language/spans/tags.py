@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from models.language.spans.crf import FORBIDDEN
 
 OUTSIDE = 0
 MAX_ARGUMENTS = 4
-"""The most arguments of a task class, and the most clauses of a composed command."""
+"""Arguments of a task class that every network has tags for, and the most clauses of a composed command."""
+MOST_ARGUMENTS = 16
+"""The most arguments of a task class, as of a contextual query."""
 TAGS = 1 + 2 * MAX_ARGUMENTS
-"""L: `OUTSIDE`, then two for each argument position."""
+"""The tags of `MAX_ARGUMENTS`: `OUTSIDE`, then two for each argument position."""
 Span = tuple[int, int]
 """A half-open range of the words of a text."""
 
@@ -48,17 +50,22 @@ def mentions_of(tags: Sequence[int], arity: int) -> tuple[tuple[Span, ...], ...]
     return tuple(map(tuple, mentions))
 
 
-def forbidden_moves(arity: int) -> tuple[list[list[float]], list[float]]:
-    """Scores [L, L] of pairs of neighbouring tags and [L] of the first tag: 0, or `FORBIDDEN`.
+def tag_count(arities: Iterable[int]) -> int:
+    """L, the tags of a network for task classes with these numbers of arguments."""
+    return 1 + 2 * max(MAX_ARGUMENTS, *arities)
+
+
+def forbidden_moves(arity: int, tags: int = TAGS) -> tuple[list[list[float]], list[float]]:
+    """Scores [L, L] of pairs of neighbouring tags and [L] of the first tag: 0, or `FORBIDDEN`; L is `tags`.
 
     A mention goes on only after it began, and a task has no tags beyond its arguments.
     """
-    usable = [tag <= 2 * arity for tag in range(TAGS)]
+    usable = [tag <= 2 * arity for tag in range(tags)]
     moves = [
-        [0.0 if usable[before] and usable[after] and _may_follow(before, after) else FORBIDDEN for after in range(TAGS)]
-        for before in range(TAGS)
+        [0.0 if usable[before] and usable[after] and _may_follow(before, after) else FORBIDDEN for after in range(tags)]
+        for before in range(tags)
     ]
-    return moves, [0.0 if usable[tag] and (tag == OUTSIDE or tag % 2) else FORBIDDEN for tag in range(TAGS)]
+    return moves, [0.0 if usable[tag] and (tag == OUTSIDE or tag % 2) else FORBIDDEN for tag in range(tags)]
 
 
 def _may_follow(before: int, after: int) -> bool:

@@ -9,7 +9,7 @@ from typing import Protocol
 
 import torch
 
-from models.language.encoder import Encoder, encoder
+from models.language.encoder import WordReader, encoder
 from models.language.errors import TrainingError
 from models.language.spans.calibration import best_temperature
 from models.language.spans.items import Item, batches, likelihood, likelihoods
@@ -57,29 +57,38 @@ class Course(Protocol):
 
 
 def train(
-    course: Course, settings: Settings, *, seed: int = 0, log: Callable[[Epoch], None] | None = None
+    course: Course,
+    settings: Settings,
+    *,
+    seed: int = 0,
+    log: Callable[[Epoch], None] | None = None,
+    words: WordReader | None = None,
+    start: SpanNet | None = None,
 ) -> SpanModel:
     """Fit a network to what a course teaches.
 
     One thread is fastest. The same seed gives the same model on the same kind of machine. `log` is called after every
-    epoch.
+    epoch. Without `words`, words are read with the encoder that is installed. With `start`, a network of the same
+    sizes, reading is not learned from nothing: see `SpanNet.reading_like`.
 
     Raises:
         TrainingError: no epoch is asked for.
     """
     if settings.epochs < 1:
         raise TrainingError("a run has at least one epoch")
-    words = encoder()
+    words = words or encoder()
     generator = random.Random(seed)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         network = _network(course, words, settings)
+        if start is not None:
+            network.reading_like(start)
         checks = _part(course.checks(random.Random(f"checks/{seed}")), settings, generator)
         _fit(network, course, words, settings, generator, checks, log)
     return _calibrated(network.eval(), words, checks, {"seed": seed, **asdict(settings)})
 
 
-def _network(course: Course, words: Encoder, settings: Settings) -> SpanNet:
+def _network(course: Course, words: WordReader, settings: Settings) -> SpanNet:
     config = SpanConfig(
         words=course.words,
         tasks=course.tasks,
@@ -96,7 +105,7 @@ def _network(course: Course, words: Encoder, settings: Settings) -> SpanNet:
 def _fit(
     network: SpanNet,
     course: Course,
-    words: Encoder,
+    words: WordReader,
     settings: Settings,
     generator: random.Random,
     checks: Sequence[Item],
@@ -132,7 +141,7 @@ def _part(items: list[Item], settings: Settings, generator: random.Random) -> li
 
 
 @torch.inference_mode()
-def mean_loss(network: SpanNet, items: Sequence[Item], words: Encoder) -> float:
+def mean_loss(network: SpanNet, items: Sequence[Item], words: WordReader) -> float:
     """The mean negative log-probability of the items' readings."""
     network.eval()
     order = sorted(items, key=lambda item: len(item.text))
@@ -143,7 +152,7 @@ def mean_loss(network: SpanNet, items: Sequence[Item], words: Encoder) -> float:
 
 
 def _calibrated(
-    network: SpanNet, words: Encoder, checks: Sequence[Item], record: dict[str, str | int | float]
+    network: SpanNet, words: WordReader, checks: Sequence[Item], record: dict[str, str | int | float]
 ) -> SpanModel:
     """The network with its temperature, from texts that it was not fitted to."""
 

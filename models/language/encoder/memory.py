@@ -1,0 +1,47 @@
+"""An encoder that reads each text once: what makes many trainings on the same texts cheap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import torch
+from torch import Tensor
+
+
+class WordReader(Protocol):
+    """What gives words their vectors."""
+
+    @property
+    def size(self) -> int:
+        """Numbers in the vector of a word, D."""
+
+    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """[B, S, D] the vectors of folded words; 0 beyond the end of a text."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RememberingReader:
+    """As `reader`, but each text is read once and its vectors are kept, a few kilobytes a word.
+
+    A text is read alone: then its vectors do not depend on the texts that were asked for with it.
+    """
+
+    reader: WordReader
+    _known: dict[tuple[str, ...], Tensor] = field(default_factory=dict, repr=False)
+
+    @property
+    def size(self) -> int:
+        """See `WordReader`."""
+        return self.reader.size
+
+    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """See `WordReader`."""
+        found = [self._read(tuple(text)) for text in texts]
+        return torch.nn.utils.rnn.pad_sequence(found, batch_first=True)
+
+    def _read(self, text: tuple[str, ...]) -> Tensor:
+        if text not in self._known:
+            self._known[text] = self.reader.read([text])[0].clone()
+        return self._known[text]
