@@ -328,7 +328,9 @@ def _owners(rows: Sequence[Sequence[Vectors]]) -> NDArray[np.intp]:
 
 
 def _nearest(commands: Vectors, rows: Vectors, owners: NDArray[np.intp], tasks: int) -> Vectors:
+    """The owners are in order; a task without rows is at -1."""
     near = np.full((len(commands), tasks), -1.0, np.float32)
     if len(rows):
-        np.maximum.at(near.T, owners, (commands @ rows.T).T)
+        first = np.flatnonzero(np.diff(owners, prepend=-1))
+        near[:, owners[first]] = np.maximum.reduceat(commands @ rows.T, first, axis=1)
     return near

@@ -115,12 +115,14 @@ class Wording:
 class TaughtTranslator:
     """A translator of taught wordings: what is said as it was taught is understood with certainty, all else not."""
 
-    wordings: tuple[Wording, ...]
+    wordings: tuple[tuple[Wording, frozenset[str]], ...]
+    """Each with the words that must stand in a command; the most literal ones first."""
 
     @classmethod
     def of(cls, utterances: Iterable[Utterance]) -> TaughtTranslator:
         """From utterances; raises as `Wording.of`."""
-        return cls(tuple(dict.fromkeys(map(Wording.of, utterances))))
+        kept = sorted(dict.fromkeys(map(Wording.of, utterances)), key=lambda wording: -wording.literal)
+        return cls(tuple((wording, frozenset(e for e in wording.elements if isinstance(e, str))) for wording in kept))
 
     def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
         """As `translate`, of each text."""
@@ -132,10 +134,10 @@ class TaughtTranslator:
         The readings of the most literal wordings share the confidence 1; the others have confidence 0.
         """
         spoken = words(text)
-        said, total = set(spoken), MAX_TOTAL_STEPS
+        said, total = frozenset(spoken), MAX_TOTAL_STEPS
         found: dict[ContextualQuery, int] = {}
-        for wording in sorted(self.wordings, key=lambda wording: -wording.literal):
-            if not said.issuperset(element for element in wording.elements if isinstance(element, str)):
+        for wording, literals in self.wordings:
+            if not literals <= said:
                 continue
             budget = [min(MAX_STEPS, total)]
             query = wording.match(spoken, budget)
