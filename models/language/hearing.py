@@ -51,9 +51,16 @@ class Lessons:
         """As `translate`, for several texts at once."""
         exact = {text: self.wordings.translate(text, candidates=candidates) for text in texts}
         rest = [text for text, found in exact.items() if not found]
+        if self.nothing_new:
+            return [exact[text] for text in texts]
         near = self.matcher.match_all(rest, self.shelf, candidates=candidates)
         found = exact | {text: self._taught(said) for text, said in zip(rest, near, strict=True)}
         return [found[text] for text in texts]
+
+    @property
+    def nothing_new(self) -> bool:
+        """Whether the networks know all tasks, so that there is nothing to compare with."""
+        return all(task.task in self.own for task in self.shelf.tasks)
 
     def doubted(self, heard: Translation) -> Translation:
         """A composition around one taught task is rather that task in other words: "no lamp should be left on"."""
@@ -70,6 +77,8 @@ class Lessons:
 
     def near(self, text: str, *, candidates: int, environment: Environment | None = None) -> tuple[Translation, ...]:
         """What means the same as a task that was taught and that makes sense in the environment."""
+        if self.nothing_new:
+            return ()
         there = None if environment is None else frozenset(environment.functions)
 
         def fits(task: str) -> bool:
@@ -119,10 +128,20 @@ class Hearing:
         if not exact:
             heard = tuple(lessons.doubted(translation) for translation in heard)
             near = lessons.near(text, candidates=MATCHED, environment=environment)
-            heard = weighed(near, heard)
+            heard = weighed([parted(translation, heard) for translation in near], heard)
         ranked = rank(text, heard, template_of=self.template_of, environment=environment)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         return merged(taught, ranked)[:candidates]
+
+
+def parted(near: Translation, heard: Sequence[Translation]) -> Translation:
+    """A task that is a clause of what was heard is hardly all that the text says."""
+    said = {task.task for _, task in near.query.tasks}
+    for translation in heard:
+        tasks = [task.task for _, task in translation.query.tasks]
+        if len(tasks) > 1 and said.intersection(tasks):
+            return replace(near, confidence=DOUBTED * near.confidence)
+    return near
 
 
 def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:

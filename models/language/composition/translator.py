@@ -24,6 +24,8 @@ SEQUENCE = "then("
 """How the shapes of sequences begin."""
 ALONE = 0.5
 """Probability of being one task from which nothing else is looked for."""
+SURE = 0.98
+"""Probability of being one task that is said in one clause from which nothing else is asked at all."""
 CERTAIN = 0.9
 """Probability of being one task from which a sequence is not looked at."""
 TAUGHT = 0.9
@@ -83,6 +85,8 @@ class ComposedTranslator:
             return ()
         understand = _Clauses(self.single, self.taught)
         whole = understand.alone(text)
+        if understood(whole) >= SURE and _in_one_clause(whole[0].query):
+            return whole[:candidates]
         shapes, refusal = self._shapes(spoken)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):

@@ -22,6 +22,7 @@ from models.language.matching.network import ON, OUTSIDE
 from models.language.spans.decoding import best_sequences, log_total
 from models.language.spans.tags import Span
 from models.language.teaching.utterance import Utterance, plain
+from models.language.teaching.wording import CONNECTIVES
 from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
@@ -185,6 +186,10 @@ class Matcher:
     ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
         for task, mentions, likely in self._tasks(self._seen(said, vectors, named), shelf, fits):
+            if any(not CONNECTIVES.isdisjoint(said[slice(*span)]) for span in mentions.spans):
+                continue  # no phrase goes on in another clause
+            if sum(end - begin for begin, end in mentions.spans) >= len(said):
+                continue  # nothing but names asks for nothing
             for order, part in task.orders(mentions):
                 phrases = tuple(" ".join(plain(said[slice(*mentions.spans[place])])) for place in order)
                 query = ContextualQuery(task.task.task, phrases)
