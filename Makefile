@@ -47,7 +47,7 @@ bench-language: $(VENV)/.dev  # commands in people's own words
 	$(BIN)/python -m benchmarks.language
 
 bench-teaching: $(VENV)/.dev  # tasks taught with one example, and with five
-	$(BIN)/python -m benchmarks.teaching
+	$(BIN)/python -m benchmarks.teaching --draws 2
 
 bench-planning: $(VENV)/.dev  # against other planners; about half an hour
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'
