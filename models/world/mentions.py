@@ -26,7 +26,8 @@ _EDGES = (
     "which",
     "that",
 )
-_NO_EDGE = DETERMINERS.union(_EDGES)
+NO_EDGE = DETERMINERS.union(_EDGES)
+"""Words with which no phrase begins or ends, whatever else they do within one."""
 
 
 def mentions(said: Words, environment: Environment) -> tuple[tuple[int, int], ...]:
@@ -46,10 +47,10 @@ def mentions(said: Words, environment: Environment) -> tuple[tuple[int, int], ..
 
 
 def _end(said: Words, begin: int, environment: Environment) -> int | None:
-    if said[begin] in _NO_EDGE:
+    if said[begin] in NO_EDGE:
         return None
     for end in range(min(begin + LONGEST, len(said)), begin, -1):
-        if said[end - 1] not in _NO_EDGE and _names(said[begin:end], environment):
+        if said[end - 1] not in NO_EDGE and _names(said[begin:end], environment):
             return end
     return None
 

@@ -6,17 +6,15 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from models.errors import Place
-from models.language.teaching.utterance import DETERMINERS, ExampleArgumentNotFoundError, Span
+from models.language.teaching.utterance import ExampleArgumentNotFoundError, Span
 from models.language.teaching.wording import CONNECTIVES
 from models.language.tokens import words
 from models.queries import ContextualQuery, Template
 from models.world import Environment, ground
+from models.world.mentions import NO_EDGE
 
 MAX_PHRASE_WORDS = 6
 """Longest phrase that is looked for."""
-_PREPOSITIONS = ("in", "into", "on", "onto", "at", "to", "from", "of", "off", "with", "by", "for", "is", "are", "which")
-NO_EDGE = DETERMINERS.union(_PREPOSITIONS)
-"""Words with which no phrase begins or ends, whatever else they do within one."""
 
 
 def find_arguments(text: str, template: Template, environment: Environment) -> ContextualQuery:
