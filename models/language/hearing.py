@@ -119,8 +119,7 @@ class Hearing:
         wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
         translator, lessons = self.translator, self.lessons
         if lessons is None:
-            heard = translator.translate(text, candidates=wanted)
-            return rank(text, heard, template_of=self.template_of, environment=environment)[:candidates]
+            return self._ranked(text, translator.translate(text, candidates=wanted), environment)[:candidates]
         if isinstance(translator, ComposedTranslator):
             translator = translator.knowing(lessons)
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
@@ -129,9 +128,22 @@ class Hearing:
             heard = tuple(lessons.doubted(translation) for translation in heard)
             near = lessons.near(text, candidates=MATCHED, environment=environment)
             heard = weighed([parted(translation, heard) for translation in near], heard)
-        ranked = rank(text, heard, template_of=self.template_of, environment=environment)
+        ranked = self._ranked(text, heard, environment)
+        if isinstance(translator, ComposedTranslator) and _senseless(ranked, environment):
+            several = self._ranked(text, translator.several(text, candidates=wanted), environment)
+            ranked = ranked if _senseless(several, environment) else several
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         return merged(taught, ranked)[:candidates]
+
+    def _ranked(
+        self, text: str, translations: Sequence[Translation], environment: Environment | None
+    ) -> tuple[Reading, ...]:
+        return rank(text, translations, template_of=self.template_of, environment=environment)
+
+
+def _senseless(readings: Sequence[Reading], environment: Environment | None) -> bool:
+    """Whether a text that is understood, if at all, means nothing in the environment."""
+    return environment is not None and all(reading.weight <= SENSELESS for reading in readings)
 
 
 def parted(near: Translation, heard: Sequence[Translation]) -> Translation:

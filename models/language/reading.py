@@ -16,7 +16,7 @@ from typing import TypeVar
 
 from models.errors import CqltlError, Place
 from models.language.tagging import part_of_speech
-from models.language.tokens import words
+from models.language.tokens import find, words
 from models.language.translation import Translation
 from models.logic import Formula
 from models.logic import to_text as formula_text
@@ -32,7 +32,7 @@ from models.queries import (
     evaluate_query,
     resolve_grounded,
 )
-from models.world import Environment
+from models.world import Environment, mentions
 
 GROUNDED = 1.0
 """Weight of a reading that means one thing in the environment."""
@@ -40,6 +40,8 @@ AMBIGUOUS = 0.5
 """Weight of one with a phrase that fits several things: it makes sense, and the speaker can be asked."""
 MISSPELT = 0.3
 """Factor for a reading that makes sense only when a word is taken for misspelt: what is said exactly is likelier."""
+UNSAID = 0.3
+"""Factor for each thing of the environment that the text names and the reading leaves out."""
 SENSELESS = 1e-4
 """Weight of one that means nothing in the environment. Not 0: people do ask for what is not there."""
 
@@ -51,7 +53,8 @@ class Reading:
     """A contextual query that a command may say.
 
     `grounded` is what it means in the environment and `refusal` why it means nothing there; both are None without an
-    environment, unless the query has the wrong number of arguments. `senseless` is how many of its tasks mean nothing.
+    environment, unless the query has the wrong number of arguments. `senseless` is how many of its tasks mean nothing,
+    `unsaid` how many things that the text names there it leaves out.
     """
 
     query: Query
@@ -59,6 +62,12 @@ class Reading:
     grounded: GroundedQuery | None = None
     refusal: CqltlError | None = None
     senseless: int = 1
+    unsaid: int = 0
+
+    @property
+    def likelihood(self) -> float:
+        """How much likelier than others the environment makes it: by its sense, and by how much of the text it says."""
+        return self.weight * UNSAID**self.unsaid
 
     @property
     def weight(self) -> float:
@@ -86,8 +95,8 @@ class FormulaReading:
     refusal: CqltlError | None = None
 
     @property
-    def weight(self) -> float:
-        """As `Reading.weight`."""
+    def likelihood(self) -> float:
+        """As `Reading.likelihood`."""
         return GROUNDED if self.refusal is None else SENSELESS
 
 
@@ -118,10 +127,12 @@ def read(
 ) -> tuple[Reading, ...]:
     """As `rank`, in the order and with the confidences of the translations."""
     readings = []
+    named = () if environment is None else _named(text, environment)
     for translation in translations:
         templates = _templates(translation.query, template_of)
         if templates is not None:
-            readings.append(_read(text, translation, templates, environment))
+            found = _read(text, translation, templates, environment)
+            readings.append(replace(found, unsaid=_unsaid(translation.query, named)))
     return tuple(readings)
 
 
@@ -173,6 +184,18 @@ def _read(
     return Reading(query, confidence, grounded)
 
 
+def _named(text: str, environment: Environment) -> tuple[tuple[str, ...], ...]:
+    """The phrases of a text that name things of the environment, each once."""
+    said = words(text)
+    return tuple(dict.fromkeys(said[begin:end] for begin, end in mentions(said, environment)))
+
+
+def _unsaid(query: Query, named: Sequence[tuple[str, ...]]) -> int:
+    """How many of the named things no argument speaks of."""
+    spoken = [argument.split() for _, task in query.tasks for argument in task.arguments]
+    return sum(all(find(phrase, argument) is None for argument in spoken) for phrase in named)
+
+
 def _senseless(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> int:
     """How many tasks of a composed query cannot be grounded."""
     if isinstance(query, ContextualQuery):
@@ -201,7 +224,7 @@ def _resolve(formula: Formula, confidence: float, environment: Environment | Non
 
 def _ordered(readings: Sequence[R]) -> tuple[R, ...]:
     """By probability in the environment, equally probable ones in their order, together as probable as before."""
-    weighed = [reading.confidence * reading.weight for reading in readings]
+    weighed = [reading.confidence * reading.likelihood for reading in readings]
     scale = sum(reading.confidence for reading in readings) / (sum(weighed) or 1.0)
     ranked = [replace(reading, confidence=w * scale) for reading, w in zip(readings, weighed, strict=True)]
     return tuple(sorted(ranked, key=lambda reading: -reading.confidence))

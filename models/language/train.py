@@ -25,9 +25,10 @@ import torch
 from models.language import copynet
 from models.language.composition import NAME
 from models.language.composition.lessons import SETTINGS, CompositionLessons
+from models.language.composition.marks import MarkedReader
 from models.language.dataset import Domain, no_task
 from models.language.dataset.tasks import task_classes
-from models.language.encoder import encoder
+from models.language.encoder import WordReader, encoder
 from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
@@ -67,7 +68,8 @@ def train_default(settings: spans.Settings, *, seed: int, folder: Path) -> None:
 
 def train_composition(settings: spans.Settings, *, seed: int, folder: Path) -> None:
     """Train the network that finds the clauses of a command, and write it with its curve."""
-    _train(CompositionLessons.load(seed=seed), settings, seed=seed, folder=folder, name=NAME)
+    lessons = CompositionLessons.load(seed=seed)
+    _train(lessons, settings, seed=seed, folder=folder, name=NAME, words=MarkedReader(encoder()))
 
 
 def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
@@ -98,14 +100,22 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
     print(f"matching: steepness {model.steepness}, threshold {model.threshold}, lesser {model.lesser}")
 
 
-def _train(course: spans.Course, settings: spans.Settings, *, seed: int, folder: Path, name: str) -> None:
+def _train(
+    course: spans.Course,
+    settings: spans.Settings,
+    *,
+    seed: int,
+    folder: Path,
+    name: str,
+    words: WordReader | None = None,
+) -> None:
     curve: list[spans.Epoch] = []
 
     def log(epoch: spans.Epoch) -> None:
         curve.append(epoch)
         print(name, " ".join(f"{key} {value}" for key, value in epoch.items()))
 
-    model = spans.train(course, settings, seed=seed, log=log)
+    model = spans.train(course, settings, seed=seed, log=log, words=words)
     save_model(model, folder, name=name)
     record = {"training": dict(model.training), "epochs": curve}
     (folder / f"{name}-curve.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")

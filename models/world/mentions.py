@@ -25,6 +25,10 @@ _EDGES = (
     "are",
     "which",
     "that",
+    "and",
+    "or",
+    "then",
+    "but",
 )
 NO_EDGE = DETERMINERS.union(_EDGES)
 """Words with which no phrase begins or ends, whatever else they do within one."""

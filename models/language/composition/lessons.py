@@ -10,6 +10,7 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import chain
 from typing import Literal, Self
 
@@ -25,7 +26,7 @@ from models.language.tokens import marked_words
 SETTINGS = Settings(epochs=14, embedding=32)
 """How the network is fitted."""
 EACH, ALONE, NONE = 100, 1600, 800
-"""Texts of each composition, of one command alone, and of no command, in an epoch."""
+"""Texts of a composition on average, of one command alone, and of no command, in an epoch."""
 UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
@@ -66,7 +67,7 @@ class CompositionLessons:
 
     def epoch(self, generator: random.Random) -> list[Item]:
         """Texts for one pass."""
-        items = [self.composed(shape, generator) for shape in patterns() for _ in range(EACH)]
+        items = [self.composed(shape, generator) for shape, count in _times().items() for _ in range(count)]
         items += [self.alone(generator) for _ in range(ALONE)]
         items += generator.choices(self.refused, k=NONE)
         return [misspelled(item, generator) if generator.random() < MISSPELLED else item for item in items]
@@ -161,6 +162,16 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
             fitting = [leaf for leaf in fitting if leaf.target == kind] or fitting
         chosen[hole.leaf] = generator.choice(fitting)
     return chosen
+
+
+@cache
+def _times() -> Mapping[str, int]:
+    """How often each shape is drawn in an epoch: more often those that people have more ways to say, for want of a
+    better measure of how common they are. Equal shares would take a rare shape for as likely as a common one.
+    """
+    ways = {shape: len(group) ** 0.5 for shape, group in patterns().items()}
+    mean = sum(ways.values()) / len(ways)
+    return {shape: round(EACH * way / mean) for shape, way in ways.items()}
 
 
 def _framing() -> tuple[Sequence[str], Sequence[str], Sequence[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,7 +11,9 @@ from typing import Protocol, Self
 
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
+from models.language.composition.marks import MarkedReader
 from models.language.composition.shapes import ONE_CLAUSE, SINGLE, filled, forbidden, read_shape
+from models.language.encoder import encoder
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
@@ -24,8 +26,8 @@ SEQUENCE = "then("
 """How the shapes of sequences begin."""
 ALONE = 0.5
 """Probability of being one task from which nothing else is looked for."""
-SURE = 0.98
-"""Probability of being one task that is said in one clause from which nothing else is asked at all."""
+SURE = 0.99
+"""Probability of being one task from which the other network is not asked at all."""
 CERTAIN = 0.9
 """Probability of being one task from which a sequence is not looked at."""
 TAUGHT = 0.9
@@ -67,7 +69,7 @@ class ComposedTranslator:
     @classmethod
     def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
         """With the model of a folder, or the one that is shipped; raises WeightsError."""
-        return cls(SpanReader.of(load_model(folder, name=name)), single)
+        return cls(SpanReader.of(load_model(folder, name=name), MarkedReader(encoder())), single)
 
     @property
     def tasks(self) -> frozenset[str]:
@@ -85,19 +87,25 @@ class ComposedTranslator:
             return ()
         understand = _Clauses(self.single, self.taught)
         whole = understand.alone(text)
-        if understood(whole) >= SURE and _in_one_clause(whole[0].query):
+        if understood(whole) >= SURE:
             return whole[:candidates]
         shapes, refusal = self._shapes(spoken)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
-            if _in_one_clause(whole[0].query) or _in_sequence(shapes) >= ALONE:
+            alone = not _outvoted(understood(whole), _several(shapes))
+            if (_in_one_clause(whole[0].query) and alone) or _in_sequence(shapes) >= ALONE:
                 return whole[:candidates]
-        found = self._weighed(whole, shapes, understand)
-        if sum(found.values()) <= refusal:
+        return _ranked(self._weighed(whole, shapes, understand), refusal, candidates)
+
+    def several(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
+        """The readings of a text as more than one command, whatever it says as one; as `translate`."""
+        spoken = marked_words(text)
+        if not any(not is_mark(word) for word in spoken):
             return ()
-        ranked = sorted(found, key=lambda query: (-found[query], str(query)))
-        return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+        shapes, refusal = self._shapes(spoken)
+        found = self._weighed((), [shape for shape in shapes if shape[0] != SINGLE], _Clauses(self.single, self.taught))
+        return _ranked(found, refusal, candidates)
 
     def _weighed(
         self, whole: Sequence[Translation], shapes: Sequence[_Shape], understand: Understand
@@ -195,16 +203,29 @@ class _Clauses:
             self._known.update(zip(unknown, self.taught.translate_all(unknown, candidates=BEAM_WIDTH), strict=True))
 
 
-def _outvoted(understood: float, refusal: float) -> bool:
-    """Whether a text that one network understands asks for nothing, as the other network says with more confidence: the
-    two saw different texts in training, so their odds are multiplied.
+def _ranked(found: Mapping[Query, float], refusal: float, candidates: int) -> tuple[Translation, ...]:
+    """The likeliest queries; none where it is likelier that the text asks for nothing."""
+    if sum(found.values()) <= refusal:
+        return ()
+    ranked = sorted(found, key=lambda query: (-found[query], str(query)))
+    return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+
+
+def _outvoted(understood: float, other: float) -> bool:
+    """Whether a text that one network understands as one task is something else, as the other network says with more
+    confidence: the two saw different texts in training, so their odds are multiplied.
     """
-    return understood * (1.0 - refusal) < (1.0 - understood) * refusal
+    return understood * (1.0 - other) < (1.0 - understood) * other
 
 
 def _in_one_clause(query: Query) -> bool:
     """Whether it is of a task class that is said in one clause; the others are sequences of what others say."""
     return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
+
+
+def _several(shapes: Sequence[_Shape]) -> float:
+    """The part of the shapes by probability that have more than one clause."""
+    return sum(share for shape, _, _, share in shapes if shape != SINGLE) / (sum(s for *_, s in shapes) or 1.0)
 
 
 def _in_sequence(shapes: Sequence[_Shape]) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from models.language.matching.late import Command, Known, KnownWords
 from models.language.matching.lessons import Lesson, Said
 from models.language.matching.model import MatchModel
 from models.language.matching.network import MatchNet
@@ -86,17 +87,16 @@ def _shelf(
     shown = generator.sample(list(held_out), len(held_out) // 2)
     kept = shown + generator.sample(list(course.lessons), TASKS - len(shown))
     split = [_example_texts(lesson, generator) for lesson in kept]
-    examples = [_commands(network, course, taught) for taught, _ in split]
-    cards = [_commands(network, course, lesson.cards) for lesson in kept]
+    examples = KnownWords.of([_known(network, course, taught) for taught, _ in split])
+    cards = KnownWords.of([_known(network, course, lesson.cards) for lesson in kept])
     arities = [len(lesson.cards[0].mentions) for lesson in kept]
     asked = [(text, number) for number, lesson in enumerate(shown) for text in split[number][1][:4]]
     absent = [lesson for lesson in held_out if lesson not in shown]
     asked += [(generator.choice(generator.choice(lesson.wordings)), -1) for lesson in absent]
     asked += [(text, -1) for text in generator.choices(list(refused), k=len(shown))]
-    commands = _commands(network, course, [text for text, _ in asked])
-    for row, (text, right) in enumerate(asked):
+    for (text, right), (command, free) in zip(asked, _read(network, course, [text for text, _ in asked]), strict=True):
         fitting = [place for place, arity in enumerate(arities) if arity == len(text.mentions)]
-        near = [np.array([(commands[row] @ rows[place].T).max() for place in fitting]) for rows in (examples, cards)]
+        near = [known.nearness(command, [free])[0, fitting] for known in (examples, cards)]
         yield _Trial(near[0], near[1], fitting.index(right) if right >= 0 else -1)
 
 
@@ -108,11 +108,20 @@ def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said]
     return drawn[:count], drawn[count:]
 
 
+def _known(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[Known]:
+    """As known commands without arguments."""
+    none = np.zeros((0, network.config.role), np.float32)
+    return [Known(command.words[free], command.weights(free), none) for command, free in _read(network, course, texts)]
+
+
 @torch.inference_mode()
-def _commands(network: MatchNet, course: Course, texts: Sequence[Said]) -> NDArray[np.float32]:
+def _read(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[tuple[Command, list[int]]]:
+    """What texts ask for, with their free words."""
     vectors, free, _, _ = batch(network, texts, course)
-    found: NDArray[np.float32] = network.commands(vectors, free).numpy()
-    return found
+    return [
+        (Command.of(network, vectors[row, : len(text.words)]), free[row].nonzero().flatten().tolist())
+        for row, text in enumerate(texts)
+    ]
 
 
 @torch.inference_mode()

@@ -1,6 +1,7 @@
 """Reads commands by comparing them with what was taught: examples of tasks, and the cards of tasks.
 
-Shapes: S words, V vectors of commands, R of roles, N examples and cards, M ways to see what is mentioned, K tasks.
+Shapes: S words, F of them free (they name nothing), V vectors of words, R of roles, N examples or cards with T free
+words in all, M ways to see what is mentioned, K tasks.
 """
 
 from __future__ import annotations
@@ -14,9 +15,9 @@ from typing import Self
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 
 from models.language.encoder import Encoder, encoder
+from models.language.matching.late import Command, Known, KnownWords, Vectors
 from models.language.matching.model import MatchModel, load_model
 from models.language.matching.network import ON, OUTSIDE
 from models.language.spans.decoding import best_sequences, log_total
@@ -27,7 +28,6 @@ from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
 
-Vectors = NDArray[np.float32]
 SEQUENCES = 6
 """Ways to see what a text mentions that are looked at."""
 LEAST = 1e-3
@@ -49,14 +49,6 @@ def _nothing_named(_said: tuple[str, ...]) -> Sequence[Span]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Known:
-    """What was read in an example or a card: vectors of the command, [V], and of the arguments' roles, [A, R]."""
-
-    command: Vectors
-    roles: Vectors
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class TaughtTask:
     """A task with what was read in its examples and in its cards, which say what it is for without an example."""
 
@@ -71,25 +63,20 @@ class Shelf:
     """Tasks to compare with, as arrays."""
 
     tasks: tuple[TaughtTask, ...]
-    _examples: Vectors = field(repr=False)  # [N, V]
-    _cards: Vectors = field(repr=False)
-    _of_example: NDArray[np.intp] = field(repr=False)  # [N], the task of each
-    _of_card: NDArray[np.intp] = field(repr=False)
+    _examples: KnownWords = field(repr=False)
+    _cards: KnownWords = field(repr=False)
 
     @classmethod
     def of(cls, tasks: Iterable[TaughtTask]) -> Self:
         """Of some tasks."""
         kept = tuple(tasks)
-        rows = [[known.command for known in task.examples] for task in kept]
-        cards = [[known.command for known in task.cards] for task in kept]
-        return cls(kept, _stacked(rows), _stacked(cards), _owners(rows), _owners(cards))
+        return cls(kept, KnownWords.of([task.examples for task in kept]), KnownWords.of([task.cards for task in kept]))
 
-    def nearness(self, commands: Vectors) -> tuple[Vectors, Vectors]:
-        """[M, K] of each command [M, V] to the nearest example of each task, and to its nearest card; -1 without."""
-        return tuple(  # type: ignore[return-value]
-            _nearest(commands, rows, owners, len(self.tasks))
-            for rows, owners in ((self._examples, self._of_example), (self._cards, self._of_card))
-        )
+    def nearness(self, command: Command, ways: Sequence[Sequence[int]]) -> tuple[Vectors, Vectors]:
+        """[M, K] of a command, seen in M ways that differ in which words are free, to the nearest example of each task,
+        and to its nearest card; -1 without.
+        """
+        return self._examples.nearness(command, ways), self._cards.nearness(command, ways)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,16 +92,21 @@ class Matcher:
         return cls(load_model(folder), encoder())
 
     def to_bytes(self, known: Known) -> bytes:
-        """What was read, in half precision: the key of the model, the command, the roles."""
-        return self.model.key + np.concatenate([known.command, known.roles.ravel()]).astype("<f2").tobytes()
+        """What was read, in half precision: the key of the model, the number of free words, these with their weights,
+        and the roles.
+        """
+        numbers = np.concatenate([known.words.ravel(), known.weights, known.roles.ravel()])
+        return self.model.key + len(known.weights).to_bytes(2, "little") + numbers.astype("<f2").tobytes()
 
     def from_bytes(self, data: bytes | None) -> Known | None:
         """The inverse of `to_bytes`; None of what another model read, or of nothing."""
         key, config = self.model.key, self.model.network.config
         if data is None or data[: len(key)] != key:
             return None
-        numbers = np.frombuffer(data[len(key) :], "<f2").astype(np.float32)
-        return Known(numbers[: config.command], numbers[config.command :].reshape(-1, config.role))
+        free, begin = int.from_bytes(data[len(key) : len(key) + 2], "little"), len(key) + 2
+        numbers = np.frombuffer(data[begin:], "<f2").astype(np.float32)
+        words, weights, roles = np.split(numbers, [free * config.word, free * (config.word + 1)])
+        return Known(words.reshape(free, config.word), weights, roles.reshape(-1, config.role))
 
     def known(self, utterances: Sequence[Utterance]) -> list[Known]:
         """What there is to compare with in utterances of which it is known what they mention."""
@@ -123,18 +115,14 @@ class Matcher:
         with torch.inference_mode():
             vectors = self.model.network.words(self.encoder.read_pieces([utterance.words for utterance in utterances]))
             return [
-                Known(*self._known(vectors[row, : len(utterance.words)], utterance))
-                for row, utterance in enumerate(utterances)
+                self._known(vectors[row, : len(utterance.words)], utterance) for row, utterance in enumerate(utterances)
             ]
 
-    def _known(self, vectors: torch.Tensor, utterance: Utterance) -> tuple[Vectors, Vectors]:
-        network, count = self.model.network, len(utterance.words)
-        free = _free(count, [span for spans in utterance.mentions for span in spans])
-        command = network.commands(vectors[None], torch.tensor([free]))[0].numpy()
-        firsts = [spans[0] for spans in utterance.mentions]
-        if not firsts:
-            return command, np.zeros((0, network.config.role), np.float32)
-        return command, network.roles(vectors, firsts).numpy()
+    def _known(self, vectors: torch.Tensor, utterance: Utterance) -> Known:
+        command = Command.of(self.model.network, vectors)
+        free = _free(len(utterance.words), [span for spans in utterance.mentions for span in spans])
+        roles = self._roles(vectors, [spans[0] for spans in utterance.mentions])
+        return Known(command.words[free], command.weights(free), roles)
 
     def match(
         self,
@@ -185,7 +173,8 @@ class Matcher:
         named: Sequence[Span],
     ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
-        for task, mentions, likely in self._tasks(self._seen(said, vectors, named), shelf, fits):
+        command = Command.of(self.model.network, vectors)
+        for task, mentions, likely in self._tasks(command, self._seen(said, vectors, named), shelf, fits):
             if any(not CONNECTIVES.isdisjoint(said[slice(*span)]) for span in mentions.spans):
                 continue  # no phrase goes on in another clause
             if sum(end - begin for begin, end in mentions.spans) >= len(said):
@@ -211,16 +200,16 @@ class Matcher:
         if not said or not shelf.tasks:
             return ()
         (vectors,) = self._vectors([said])
-        commands = np.stack([seen.command for seen in self._seen(said, vectors)])
-        near = np.maximum(*shelf.nearness(commands)).max(axis=0)  # [K]
+        ways = [seen.free for seen in self._seen(said, vectors)]
+        near = np.maximum(*shelf.nearness(Command.of(self.model.network, vectors), ways)).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, seen: Sequence[_Seen], shelf: Shelf, fits: Callable[[str], bool]
+        self, command: Command, seen: Sequence[_Seen], shelf: Shelf, fits: Callable[[str], bool]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together."""
-        examples, cards = shelf.nearness(np.stack([way.command for way in seen]))
+        examples, cards = shelf.nearness(command, [way.free for way in seen])
         points = self.model.points(examples, cards)  # [M, K]
         arities = np.array([task.arity for task in shelf.tasks])
         fitting = np.array([fits(task.task) for task in shelf.tasks])
@@ -246,12 +235,10 @@ class Matcher:
         for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES):
             spans = _distinct(said, _spans(tags))
             ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
-        free = torch.tensor([_free(len(said), spans) for spans in ways])
-        commands = network.commands(vectors.expand(len(ways), -1, -1), free).numpy()
         known = _distinct(said, named)
         return [
-            _Seen(spans, share, command, self._roles(vectors, spans), bool(named) and spans == known)
-            for (spans, share), command in zip(ways.items(), commands, strict=True)
+            _Seen(spans, share, _free(len(said), spans), self._roles(vectors, spans), bool(named) and spans == known)
+            for spans, share in ways.items()
         ]
 
     def _roles(self, vectors: torch.Tensor, spans: Sequence[Span]) -> Vectors:
@@ -267,7 +254,7 @@ class _Seen:
 
     spans: tuple[Span, ...]
     probability: float
-    command: Vectors  # [V]
+    free: list[int]  # places of the words that name nothing
     roles: Vectors  # [mentions, R]
     named: bool  # whether the mentions are what the text names in the environment
 
@@ -315,27 +302,7 @@ def _distinct(said: Sequence[str], spans: Iterable[Span]) -> tuple[Span, ...]:
     return tuple(first.values())
 
 
-def _free(count: int, spans: Iterable[Span]) -> list[float]:
-    """1 for each word that names nothing, 0 for the others; all 1 where nothing else is said."""
-    free = [1.0] * count
-    for begin, end in spans:
-        free[begin:end] = [0.0] * (end - begin)
-    return free if any(free) else [1.0] * count
-
-
-def _stacked(rows: Sequence[Sequence[Vectors]]) -> Vectors:
-    flat = [row for group in rows for row in group]
-    return np.stack(flat) if flat else np.zeros((0, 0), np.float32)
-
-
-def _owners(rows: Sequence[Sequence[Vectors]]) -> NDArray[np.intp]:
-    return np.array([number for number, group in enumerate(rows) for _ in group], dtype=np.intp)
-
-
-def _nearest(commands: Vectors, rows: Vectors, owners: NDArray[np.intp], tasks: int) -> Vectors:
-    """The owners are in order; a task without rows is at -1."""
-    near = np.full((len(commands), tasks), -1.0, np.float32)
-    if len(rows):
-        first = np.flatnonzero(np.diff(owners, prepend=-1))
-        near[:, owners[first]] = np.maximum.reduceat(commands @ rows.T, first, axis=1)
-    return near
+def _free(count: int, spans: Iterable[Span]) -> list[int]:
+    """The places of the words that name nothing; all where nothing else is said."""
+    named = {place for begin, end in spans for place in range(begin, end)}
+    return [place for place in range(count) if place not in named] or list(range(count))

@@ -57,8 +57,7 @@ class _Data(BaseModel):
 class _NetworkData(_Data):
     vector: int = Field(ge=1, le=4096)
     rank: int = Field(ge=1, le=4096)
-    hidden: int = Field(ge=1, le=4096)
-    command: int = Field(ge=1, le=4096)
+    word: int = Field(ge=1, le=4096)
     role: int = Field(ge=1, le=4096)
     dropout: float = Field(ge=0, lt=1)
 

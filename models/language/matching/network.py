@@ -1,19 +1,20 @@
 """The network that compares commands: what is asked for, apart from what it is asked of.
 
 MiniLM reads the words, with its upper layers adapted: what a sentence asks for is in these. Its vectors are read in
-three ways: a conditional random field finds the words that name things; the mean of the other words, projected, says
-what is asked for, and is near to that of another command which asks for the same; and each mention, with the words
-before it, gets a vector of the part it plays, near to that of the mention with the same part in another command.
-Nothing here knows a task: all of them are examples to compare with, as in prototypical networks (Snell et al., NeurIPS
-2017).
+three ways: a conditional random field finds the words that name things; each of the other words, projected, is looked
+for in another command, which asks for the same when all that matters is found there (late interaction: Khattab and
+Zaharia, "ColBERT", SIGIR 2020); and each mention, with the words before it, gets a vector of the part it plays, near to
+that of the mention with the same part in another command. Nothing here knows a task: all of them are examples to
+compare with, as in prototypical networks (Snell et al., NeurIPS 2017).
 
-Shapes: B texts, S words, D encoder, V vectors of commands, R of roles, 3 tags (outside, begin, go on).
+Shapes: B texts, S words, D encoder, V vectors of words, R of roles, 3 tags (outside, begin, go on).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import torch
 from torch import Tensor, nn
@@ -31,14 +32,31 @@ LEFT = 2
 
 @dataclass(frozen=True, slots=True)
 class MatchConfig:
-    """The sizes of a network; `vector` is D, `command` is V, `role` is R."""
+    """The sizes of a network; `vector` is D, `word` is V, `role` is R."""
 
     vector: int
     rank: int = 16  # of the adapters
-    hidden: int = 512
-    command: int = 256
+    word: int = 128
     role: int = 96
     dropout: float = 0.3
+
+
+class Commands(NamedTuple):
+    """B commands: unit vectors of what each word asks for, [B, S, V], and how much each matters, [B, S]."""
+
+    words: Tensor
+    salience: Tensor
+
+    def nearness(self, free: Tensor) -> Tensor:
+        """[B, B] of each command to each, between -1 and 1: what matters in one is found in the other, on average of
+        both ways. `free` [B, S] is 1 for the words that count, of which each command has one, 0 for the others.
+        """
+        weights = self.salience * free
+        weights = weights / weights.sum(dim=1, keepdim=True)  # [B, S]
+        near = torch.einsum("nsv,mtv->nmst", self.words, self.words)
+        found = near.masked_fill(free[None, :, None, :] == 0, -1.0).amax(dim=3)  # [B, B, S], of one's words in other
+        one_way = (found * weights[:, None, :]).sum(dim=2)  # [B, B]
+        return (one_way + one_way.T) / 2
 
 
 class MatchNet(nn.Module):
@@ -52,12 +70,8 @@ class MatchNet(nn.Module):
         self.config = config
         self.words = UpperLayers(config.rank, dropout=0.1)
         self.dropout = nn.Dropout(config.dropout)
-        self.command = nn.Sequential(
-            nn.Linear(config.vector, config.hidden),
-            nn.GELU(),
-            nn.Dropout(config.dropout),
-            nn.Linear(config.hidden, config.command),
-        )
+        self.word = nn.Linear(config.vector, config.word)
+        self.salience = nn.Linear(config.vector, 1)
         self.role = nn.Linear(2 * config.vector, config.role)
         self.tag = nn.Linear(config.vector, TAGS)
         self.transition = nn.Parameter(torch.zeros(TAGS, TAGS))
@@ -66,17 +80,11 @@ class MatchNet(nn.Module):
         self.register_buffer("allowed", moves, persistent=False)
         self.register_buffer("allowed_start", torch.tensor([0.0, 0.0, FORBIDDEN]), persistent=False)
 
-    def commands(self, vectors: Tensor, free: Tensor) -> Tensor:
-        """[B, V] unit vectors of what is asked for.
-
-        Args:
-            vectors: [B, S, D].
-            free: [B, S], 1 for the words that name nothing, 0 for the others and beyond the end of a text; a text of
-                nothing but names counts as a whole.
-        """
-        count = free.sum(dim=1, keepdim=True)  # [B, 1]
-        mean = (vectors * free[:, :, None]).sum(dim=1) / count.clamp(min=1.0)  # [B, D]
-        return functional.normalize(self.command(self.dropout(mean)), dim=1)
+    def commands(self, vectors: Tensor) -> Commands:
+        """What words with the vectors [B, S, D] ask for."""
+        read = self.dropout(vectors)
+        words = functional.normalize(self.word(read), dim=2)
+        return Commands(words, functional.softplus(self.salience(read)).squeeze(2))
 
     def roles(self, vectors: Tensor, mentions: Sequence[Span]) -> Tensor:
         """[M, R] unit vectors of the parts that mentions play in a text with the vectors [S, D]."""

@@ -82,9 +82,9 @@ def _losses(network: MatchNet, course: Course, settings: Settings, generator: ra
     owners = torch.tensor([number for number, group in enumerate(drawn) for _ in group])
     refused = generator.choices(course.refused, k=settings.refused)
     vectors, free, tags, lengths = batch(network, [*texts, *refused], course)
-    commands = network.commands(vectors, free)
+    near = network.commands(vectors).nearness(free)
     return {
-        "commands": _contrast(commands[: len(texts)], owners, commands[len(texts) :]),
+        "commands": _contrast(near[: len(texts)], owners),
         "tags": 0.3 * _tagging(network, *(part[: len(texts)] for part in (vectors, tags, lengths))),
         "roles": 0.3 * _role_loss(network, drawn, vectors),
     }
@@ -120,16 +120,17 @@ def batch(network: MatchNet, texts: Sequence[Said], course: Course) -> tuple[Ten
     return vectors, free, tags, torch.tensor([len(text.words) for text in texts])
 
 
-def _contrast(commands: Tensor, owners: Tensor, refused: Tensor) -> Tensor:
+def _contrast(near: Tensor, owners: Tensor) -> Tensor:
     """Each command is nearer to those of its task than to all others (Khosla et al., NeurIPS 2020, L_out), and to what
-    asks for nothing.
+    asks for nothing: `near` [N, N + refused].
     """
-    near = commands @ commands.T / TEMPERATURE  # [N, N]
-    itself = torch.eye(len(owners), dtype=torch.bool)
+    near = near / TEMPERATURE
+    count = len(owners)
+    itself = torch.eye(count, dtype=torch.bool)
     same = (owners[:, None] == owners[None, :]) & ~itself
-    others = torch.cat([near.masked_fill(same | itself, -1e4), commands @ refused.T / TEMPERATURE], dim=1)
-    against = torch.logaddexp(near, others.logsumexp(dim=1, keepdim=True))  # [N, N]
-    return -((near - against) * same).sum(dim=1).div(same.sum(dim=1)).mean()
+    others = near.masked_fill(functional.pad(same | itself, (0, near.shape[1] - count)), -1e4)
+    against = torch.logaddexp(near[:, :count], others.logsumexp(dim=1, keepdim=True))  # [N, N]
+    return -((near[:, :count] - against) * same).sum(dim=1).div(same.sum(dim=1)).mean()
 
 
 def _tagging(network: MatchNet, vectors: Tensor, tags: Tensor, lengths: Tensor) -> Tensor:

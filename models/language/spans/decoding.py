@@ -35,12 +35,14 @@ def log_total(emissions: TagScores, transitions: TagScores, start: TagScores) ->
 
 
 def best_sequences(
-    emissions: TagScores, transitions: TagScores, start: TagScores, *, count: int
+    emissions: TagScores, transitions: TagScores, start: TagScores, *, count: int, least: float = FORBIDDEN / 2
 ) -> tuple[tuple[float, tuple[int, ...]], ...]:
     """The tag sequences with the highest scores, best first, at most `count` (Viterbi, k best).
 
-    Sequences with a `FORBIDDEN` move are left out. Arguments as `log_total`.
+    Sequences with a score below `least` are left out, and those with a `FORBIDDEN` move. Other arguments as
+    `log_total`.
     """
+    least = max(least, FORBIDDEN / 2)
     tags = emissions.shape[1]
     scores = (start + emissions[0])[:, None]  # [L, K], per last tag the best sequences so far, best first
     pointers: list[NDArray[np.intp]] = []
@@ -54,9 +56,7 @@ def best_sequences(
     backward = [pointer.tolist() for pointer in reversed(pointers)]
     widths = [1, *(len(pointer) for pointer in pointers)]
     return tuple(
-        (float(flat[place]), _trace(backward, widths, place))
-        for place in places.tolist()
-        if flat[place] > FORBIDDEN / 2
+        (float(flat[place]), _trace(backward, widths, place)) for place in places.tolist() if flat[place] > least
     )
 
 

@@ -19,6 +19,8 @@ SEQUENCES = 16
 """Tag sequences read out for each task class; different ones may say the same query, and their probabilities add up."""
 LEAST_TASK = 1e-3
 """Task classes less probable than this are not read out."""
+LEAST = 1e-4
+"""Nor tag sequences that are less probable, together with their class."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +95,8 @@ class SpanReader:
         emissions = emissions[:, :used]
         transitions, start = self._transitions[task][:used, :used], self._start[task][:used]
         total = log_total(emissions, transitions, start)
-        for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES):
+        least = total + math.log(LEAST / probability)
+        for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES, least=least):
             mentions = mentions_of(tags, arity)
             if all(mentions):
                 named = (place for place, tag in enumerate(tags) if tag != OUTSIDE)

@@ -1,0 +1,103 @@
+"""Late interaction: how near a command is to others, word by word (Khattab and Zaharia, "ColBERT", SIGIR 2020).
+
+Shapes: S words, F of them free (they name nothing), V vectors of words, R of roles, N known commands with T free words
+in all, M ways to see which words are free, K tasks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from models.language.matching.network import MatchNet
+
+Vectors = NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Known:
+    """What was read in an example or a card: vectors of its free words, [F, V], how much each of them matters, [F],
+    adding up to 1, and vectors of the arguments' roles, [A, R].
+    """
+
+    words: Vectors
+    weights: Vectors
+    roles: Vectors
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Command:
+    """What the words of a text ask for, [S, V], and how much each matters, [S]."""
+
+    words: Vectors
+    salience: Vectors
+
+    @classmethod
+    @torch.inference_mode()
+    def of(cls, network: MatchNet, vectors: torch.Tensor) -> Self:
+        """Of words with the vectors [S, D]."""
+        words, salience = network.commands(vectors[None])
+        return cls(words[0].numpy(), salience[0].numpy())
+
+    def weights(self, free: Sequence[int]) -> Vectors:
+        """[F] how much each of the free words matters, adding up to 1."""
+        salience = self.salience[list(free)]
+        weights: Vectors = salience / salience.sum()
+        return weights
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KnownWords:
+    """The free words of known commands as arrays: vectors [T, V], weights [T], where each command begins [N], where the
+    commands of each task that has any begin among these, and which tasks those are.
+    """
+
+    words: Vectors
+    weights: Vectors
+    begins: NDArray[np.intp]
+    firsts: NDArray[np.intp]
+    owners: NDArray[np.intp]
+    tasks: int  # K
+
+    @classmethod
+    def of(cls, known: Sequence[Sequence[Known]]) -> Self:
+        """Of the commands of each task."""
+        flat = [one for group in known for one in group]
+        counts = np.array([len(group) for group in known], dtype=np.intp)
+        owners = np.flatnonzero(counts)
+        return cls(
+            np.concatenate([one.words for one in flat]) if flat else np.zeros((0, 0), np.float32),
+            np.concatenate([one.weights for one in flat]) if flat else np.zeros(0, np.float32),
+            _starts(np.array([len(one.weights) for one in flat], dtype=np.intp)),
+            _starts(counts[owners]),
+            owners,
+            len(known),
+        )
+
+    def nearness(self, command: Command, ways: Sequence[Sequence[int]]) -> Vectors:
+        """[M, K] of a command, seen in M ways that differ in which words are free, to the nearest command of each task;
+        -1 without. As `models.language.matching.network.Commands.nearness`.
+        """
+        near = np.full((len(ways), self.tasks), -1.0, np.float32)
+        if len(self.owners):
+            each = command.words @ self.words.T  # [S, T]
+            for row, free in enumerate(ways):
+                near[row, self.owners] = np.maximum.reduceat(self._both_ways(each[free], command, free), self.firsts)
+        return near
+
+    def _both_ways(self, each: Vectors, command: Command, free: Sequence[int]) -> Vectors:
+        """[N] of a command to each that is known; `each` [F, T] are the similarities of words."""
+        found = command.weights(free) @ np.maximum.reduceat(each, self.begins, axis=1)  # [N], its words in the others
+        others = np.add.reduceat(self.weights * each.max(axis=0), self.begins)  # [N], theirs in it
+        nearness: Vectors = ((found + others) / 2).astype(np.float32)
+        return nearness
+
+
+def _starts(counts: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Where parts of these lengths begin, one after the other; none is empty."""
+    return np.cumsum(counts) - counts
