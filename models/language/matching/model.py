@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 from safetensors.torch import load as load_tensors
 
-from models.language.encoder import adapters, load_adapters
 from models.language.matching.network import MatchConfig, MatchNet
 from models.language.model_files import reading, write_model
 
@@ -55,9 +54,7 @@ class _Data(BaseModel):
 
 
 class _NetworkData(_Data):
-    vector: int = Field(ge=1, le=4096)
-    rank: int = Field(ge=1, le=4096)
-    word: int = Field(ge=1, le=4096)
+    vector: int = Field(ge=2, le=4096)
     role: int = Field(ge=1, le=4096)
     dropout: float = Field(ge=0, lt=1)
 
@@ -81,7 +78,7 @@ def save_model(model: MatchModel, folder: Path) -> None:
         role_temperature=model.role_temperature,
         training=dict(model.training),
     )
-    write_model(adapters(model.network), data, folder, NAME)
+    write_model(model.network, data, folder, NAME)
 
 
 def load_model(folder: Path | None = None) -> MatchModel:
@@ -96,7 +93,6 @@ def load_model(folder: Path | None = None) -> MatchModel:
         with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
             network = MatchNet(MatchConfig(**data.network.model_dump()))
         tensors = (place / f"{NAME}.safetensors").read_bytes()
-        load_adapters(network, load_tensors(tensors))
-        network.words.merge()
+        network.load_state_dict(load_tensors(tensors), assign=True)
     constants = (data.steepness, data.threshold, data.lesser, data.role_temperature)
     return MatchModel(network.eval(), *constants, data.training, hashlib.sha256(tensors).digest()[:8])

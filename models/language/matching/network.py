@@ -1,13 +1,13 @@
 """The network that compares commands: what is asked for, apart from what it is asked of.
 
-MiniLM reads the words, with its upper layers adapted: what a sentence asks for is in these. Its vectors are read in
-three ways: a conditional random field finds the words that name things; each of the other words, projected, is looked
+MiniLM reads the words, all of its layers: what a sentence asks for is in the upper ones. Its vectors are read in three
+ways: a conditional random field finds the words that name things; each of the other words, moved a little, is looked
 for in another command, which asks for the same when all that matters is found there (late interaction: Khattab and
 Zaharia, "ColBERT", SIGIR 2020); and each mention, with the words before it, gets a vector of the part it plays, near to
 that of the mention with the same part in another command. Nothing here knows a task: all of them are examples to
 compare with, as in prototypical networks (Snell et al., NeurIPS 2017).
 
-Shapes: B texts, S words, D encoder, V vectors of words, R of roles, 3 tags (outside, begin, go on).
+Shapes: B texts, S words, D encoder, V its upper half, R of roles, 3 tags (outside, begin, go on).
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from models.language.encoder import UpperLayers
 from models.language.spans.crf import FORBIDDEN
 from models.language.spans.tags import Span
 
@@ -32,13 +31,16 @@ LEFT = 2
 
 @dataclass(frozen=True, slots=True)
 class MatchConfig:
-    """The sizes of a network; `vector` is D, `word` is V, `role` is R."""
+    """The sizes of a network; `vector` is D, `role` is R."""
 
     vector: int
-    rank: int = 16  # of the adapters
-    word: int = 128
     role: int = 96
     dropout: float = 0.3
+
+    @property
+    def word(self) -> int:
+        """V."""
+        return self.vector // 2
 
 
 class Commands(NamedTuple):
@@ -68,10 +70,11 @@ class MatchNet(nn.Module):
     def __init__(self, config: MatchConfig) -> None:
         super().__init__()
         self.config = config
-        self.words = UpperLayers(config.rank, dropout=0.1)
         self.dropout = nn.Dropout(config.dropout)
-        self.word = nn.Linear(config.vector, config.word)
+        self.word = nn.Linear(config.word, config.word)
         self.salience = nn.Linear(config.vector, 1)
+        for layer in (self.word, self.salience):
+            nn.init.zeros_(layer.weight)
         self.role = nn.Linear(2 * config.vector, config.role)
         self.tag = nn.Linear(config.vector, TAGS)
         self.transition = nn.Parameter(torch.zeros(TAGS, TAGS))
@@ -81,10 +84,19 @@ class MatchNet(nn.Module):
         self.register_buffer("allowed_start", torch.tensor([0.0, 0.0, FORBIDDEN]), persistent=False)
 
     def commands(self, vectors: Tensor) -> Commands:
-        """What words with the vectors [B, S, D] ask for."""
-        read = self.dropout(vectors)
-        words = functional.normalize(self.word(read), dim=2)
-        return Commands(words, functional.softplus(self.salience(read)).squeeze(2))
+        """What words with the vectors [B, S, D] ask for.
+
+        Words are what MiniLM makes of them, and what is learned is added to it: from a few hundred tasks less can be
+        learned than MiniLM knows.
+        """
+        upper = vectors[:, :, self.config.word :]
+        words = functional.normalize(upper + self.word(self.dropout(upper)), dim=2)
+        return Commands(words, functional.softplus(self.salience(self.dropout(vectors))).squeeze(2))
+
+    @torch.no_grad()
+    def centre(self, vectors: Tensor) -> None:
+        """Begin from what tells words apart: take away the mean of vectors [N, D], which all have in common."""
+        self.word.bias.copy_(-vectors[:, self.config.word :].mean(dim=0))
 
     def roles(self, vectors: Tensor, mentions: Sequence[Span]) -> Tensor:
         """[M, R] unit vectors of the parts that mentions play in a text with the vectors [S, D]."""

@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
-from models.language.encoder import Encoder, Pieced
+from models.language.encoder import Encoder
 from models.language.matching.lessons import Lesson, Said, texts_of
 from models.language.matching.network import BEGIN, ON, OUTSIDE, MatchConfig, MatchNet
 from models.language.spans.crf import log_partition, score
@@ -37,20 +37,22 @@ class Settings:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """Lessons and texts that ask for nothing, with what the lower layers say of all of them."""
+    """Lessons and texts that ask for nothing, with the vectors [S, D] of all of them, in half precision."""
 
     lessons: Sequence[Lesson]
     refused: Sequence[Said]
-    read: dict[tuple[str, ...], Pieced]
+    read: dict[tuple[str, ...], Tensor]
 
     @classmethod
     def of(cls, lessons: Sequence[Lesson], refused: Sequence[Said], encoder: Encoder) -> Course:
         """Read every text once."""
         said = sorted({text.words for text in [*texts_of(lessons), *refused]}, key=len)
-        read: dict[tuple[str, ...], Pieced] = {}
+        read: dict[tuple[str, ...], Tensor] = {}
         for start in range(0, len(said), 64):
             part = said[start : start + 64]
-            read.update(zip(part, encoder.read_pieces(part), strict=True))
+            with torch.no_grad():
+                vectors = encoder.read_deeply(part).half()
+                read.update((text, found[: len(text)].clone()) for text, found in zip(part, vectors, strict=True))
         return cls(lessons, refused, read)
 
 
@@ -59,16 +61,16 @@ def fit(course: Course, settings: Settings, *, seed: int, log: Callable[[dict[st
     generator = random.Random(seed)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
-        size = 2 * next(iter(course.read.values())).states.shape[1]
+        size = next(iter(course.read.values())).shape[1]
         network = MatchNet(MatchConfig(vector=size, dropout=settings.dropout)).train()
-        fitted = [parameter for parameter in network.parameters() if parameter.requires_grad]
-        optimizer = torch.optim.AdamW(fitted, settings.learning_rate, weight_decay=settings.decay)
+        network.centre(torch.cat([course.read[text.words] for text in texts_of(course.lessons)]).float())
+        optimizer = torch.optim.AdamW(network.parameters(), settings.learning_rate, weight_decay=settings.decay)
         schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, settings.steps)
         for step in range(1, settings.steps + 1):
             losses = _losses(network, course, settings, generator)
             optimizer.zero_grad()
             sum(losses.values(), torch.zeros(())).backward()  # type: ignore[no-untyped-call]
-            torch.nn.utils.clip_grad_norm_(fitted, settings.clip)
+            torch.nn.utils.clip_grad_norm_(network.parameters(), settings.clip)
             optimizer.step()
             schedule.step()
             if log is not None and step % 50 == 0:
@@ -81,7 +83,7 @@ def _losses(network: MatchNet, course: Course, settings: Settings, generator: ra
     texts = [text for group in drawn for text in group]
     owners = torch.tensor([number for number, group in enumerate(drawn) for _ in group])
     refused = generator.choices(course.refused, k=settings.refused)
-    vectors, free, tags, lengths = batch(network, [*texts, *refused], course)
+    vectors, free, tags, lengths = batch([*texts, *refused], course)
     near = network.commands(vectors).nearness(free)
     return {
         "commands": _contrast(near[: len(texts)], owners),
@@ -105,9 +107,10 @@ def _draw(lessons: Sequence[Lesson], count: int, generator: random.Random) -> li
     return groups
 
 
-def batch(network: MatchNet, texts: Sequence[Said], course: Course) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+def batch(texts: Sequence[Said], course: Course) -> tuple[Tensor, Tensor, Tensor, Tensor]:
     """The vectors [B, S, D], free words [B, S], tags [B, S] and lengths [B] of texts."""
-    vectors: Tensor = network.words([course.read[text.words] for text in texts])
+    read = [course.read[text.words].float() for text in texts]
+    vectors = torch.nn.utils.rnn.pad_sequence(read, batch_first=True)
     free = torch.zeros(vectors.shape[:2])
     tags = torch.full(vectors.shape[:2], OUTSIDE)
     for row, text in enumerate(texts):
