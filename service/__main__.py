@@ -17,6 +17,9 @@ from service.exchange import add_commands, export, import_model
 from service.settings import Settings
 from service.store.engine import is_postgresql
 
+PLAN_OPTIONS = ("objective", "verify", "no_relevance")
+"""Arguments of `plan` that are members of the request's `options`."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the result is the exit status: 0 done, 1 refused, 2 not understood."""
@@ -77,6 +80,9 @@ def _parser() -> argparse.ArgumentParser:
     where = plan.add_mutually_exclusive_group(required=True)
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
+    plan.add_argument("--objective", choices=["max", "min"], help="max (default), or min: the least probability")
+    plan.add_argument("--verify", action="store_true", help="also evaluate the policy apart from planning")
+    plan.add_argument("--no-relevance", action="store_true", help="plan in the whole world, with what cannot matter")
 
     add_commands(commands)
     document = _remote(commands.add_parser("openapi", help="print the OpenAPI document"))
@@ -146,8 +152,10 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     body = {
         name: value
         for name, value in vars(options).items()
-        if name not in ("command", "server", "environment_file") and value not in (None, [], False)
+        if name not in ("command", "server", "environment_file", *PLAN_OPTIONS) and value not in (None, [], False)
     }
+    if chosen := _plan_options(options):
+        body["options"] = chosen
     if getattr(options, "environment_file", None) is not None:
         body["environment_spec"] = _read_environment(options.environment_file)
     try:
@@ -157,6 +165,17 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
         return 1
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
+
+
+def _plan_options(options: argparse.Namespace) -> dict[str, Any]:
+    """The members of a plan's `options` that were given."""
+    objective, verify, whole = (getattr(options, name, None) for name in PLAN_OPTIONS)
+    found: dict[str, Any] = {"objective": objective} if objective else {}
+    if verify:
+        found["verify"] = True
+    if whole:
+        found["relevance"] = False
+    return found
 
 
 def _export(settings: Settings, options: argparse.Namespace) -> int:

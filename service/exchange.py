@@ -41,6 +41,9 @@ def add_commands(commands: Any) -> None:
         metavar="N=5",
         help="value of a constant that the model leaves open",
     )
+    read.add_argument(
+        "--rewards", help="reward structure that says what actions cost; by default costs, or the only one"
+    )
     read.add_argument("--timeout", type=int, default=60, help="seconds until Storm is stopped")
     read.add_argument("--output", type=Path, help="write the environment as JSON to this file instead of storing it")
     read.add_argument("--server", help="address of a running server; without it none is needed")
@@ -94,7 +97,13 @@ def import_model(settings: Settings, options: argparse.Namespace) -> int:
     from service.client import UnreachableError, post
 
     try:
-        data = read_prism(options.file, name=options.name, constants=dict(options.constants), timeout_s=options.timeout)
+        data = read_prism(
+            options.file,
+            name=options.name,
+            constants=dict(options.constants),
+            rewards=options.rewards,
+            timeout_s=options.timeout,
+        )
         if options.output is not None:
             options.output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
             return 0
@@ -107,7 +116,8 @@ def import_model(settings: Settings, options: argparse.Namespace) -> int:
     if status >= 400:
         print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stderr)
         return 1
-    print(f"{options.name}: {data['states']} states, {len(data['transitions'])} transitions")
+    costs = ", with costs" if any("cost" in transition for transition in data["transitions"]) else ""
+    print(f"{options.name}: {data['states']} states, {len(data['transitions'])} transitions{costs}")
     return 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from itertools import count
-from math import ulp
+from math import inf, ulp
 from typing import Any
 
 from models.interchange.errors import PrismModelError
@@ -18,17 +18,25 @@ _ROOM = 10  # characters kept for the number that tells names apart
 _STEP = "step"
 
 
-def explicit_data(model: Any, *, name: str, labels: Sequence[str], kind: str) -> dict[str, Any]:
-    """The data of an environment; `labels` are those of the program in its order. Raises PrismModelError."""
+def explicit_data(
+    model: Any, *, name: str, labels: Sequence[str], kind: str, costs: Sequence[float] | None = None
+) -> dict[str, Any]:
+    """The data of an environment; `labels` are those of the program in its order, `costs` of the model's choices in
+    their order. Raises PrismModelError.
+    """
     deadlocks = set(model.labeling.get_states("deadlock")) if "deadlock" in model.labeling.get_labels() else set()
     transitions: list[dict[str, Any]] = []
+    first = 0  # choice of the state
     for state in model.states:
         actions = list(state.actions)
+        paid = None if costs is None else costs[first : first + len(actions)]
+        first += len(actions)
         if state.id in deadlocks and len(actions) == 1 and not _named(actions[0]):
             continue  # the loop that Storm adds
         names = [_STEP] if kind == "DTMC" else _names([_named(action) for action in actions])
-        for action, chosen in zip(actions, names, strict=True):
-            transitions.append({"from": state.id, "action": chosen, "to": _outcomes(action, state.id, chosen)})
+        for place, (action, chosen) in enumerate(zip(actions, names, strict=True)):
+            cost = {} if paid is None or paid[place] == 1 else {"cost": paid[place]}
+            transitions.append({"from": state.id, "action": chosen, **cost, "to": _outcomes(action, state.id, chosen)})
     _check_outcomes(model.nr_states, transitions)
     (initial,) = model.initial_states
     return {
@@ -39,6 +47,25 @@ def explicit_data(model: Any, *, name: str, labels: Sequence[str], kind: str) ->
         "labels": {valid: sorted(model.labeling.get_states(label)) for label, valid in _propositions(labels).items()},
         "transitions": transitions,
     }
+
+
+def costs_of(model: Any, structure: str, *, wanted: bool) -> list[float] | None:
+    """What each choice costs by a reward structure of the model; where that is not positive and finite everywhere,
+    None, or if it is `wanted` all the same, PrismModelError.
+    """
+    rewards = model.reward_models[structure]
+    of_states = list(rewards.state_rewards) if rewards.has_state_rewards else [0.0] * model.nr_states
+    of_choices = list(rewards.state_action_rewards) if rewards.has_state_action_rewards else [0.0] * model.nr_choices
+    owner = [state.id for state in model.states for _ in state.actions]
+    deadlocks = set(model.labeling.get_states("deadlock")) if "deadlock" in model.labeling.get_labels() else set()
+    costs = [_rounded(of_states[state] + choice) for state, choice in zip(owner, of_choices, strict=True)]
+    for state, cost in zip(owner, costs, strict=True):
+        if state not in deadlocks and not 0 < cost < inf:
+            if wanted:
+                name = structure or "without a name"
+                raise PrismModelError(f"costs are positive, but in state {state} the rewards {name} are {cost:g}")
+            return None
+    return costs
 
 
 def _named(action: Any) -> str:

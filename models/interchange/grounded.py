@@ -37,6 +37,7 @@ class Command:
     identifier: str
     guard: Condition
     updates: tuple[Update, ...]
+    cost: Number
 
     @property
     def certain(self) -> bool:
@@ -120,7 +121,7 @@ class GroundedModel:
             return None
         known = _known(guard)
         updates = tuple(Update(probability, self._assignments(changes, known)) for probability, changes in happening)
-        return Command(name, self._names.new(name), guard, updates)
+        return Command(name, self._names.new(name), guard, updates, self.translator.number(action.cost, {}))
 
     def _changes(
         self, outcome: Outcome, binding: Mapping[str, Symbol], scope: Mapping[str, Known]

@@ -23,13 +23,14 @@ _BATCH = 2**14  # states whose outcomes are computed at a time
 class Listing:
     """Rows (states), each with one choice or more, each with one outcome or more; choices sorted by row, then action.
 
-    A state in which no action is possible has the choice `len(world.actions)`, which stays there.
+    A state in which no action is possible has the choice `len(world.actions)`, which stays there and costs 1.
     """
 
     states: NDArray[np.int64]  # [n]  the world's number of each row's state
     initial: int  # the row of the initial state
     first_choice: NDArray[np.int64]  # [n + 1]
     action: NDArray[np.int64]  # [C]
+    cost: NDArray[np.float64]  # [C]
     first_outcome: NDArray[np.int64]  # [C + 1]
     successor: NDArray[np.int64]  # [E]  rows
     probability: NDArray[np.float64]  # [E]
@@ -41,6 +42,7 @@ class _Batch:
 
     choices: NDArray[np.int64]  # [n]  how many
     action: NDArray[np.int64]
+    cost: NDArray[np.float64]
     outcomes: NDArray[np.int64]  # [C]  how many
     successor: NDArray[np.int64]
     probability: NDArray[np.float64]
@@ -98,6 +100,7 @@ def _listing(world: World, states: NDArray[np.int64], batches: Sequence[_Batch])
         initial=int(np.flatnonzero(states == world.initial)[0]),
         first_choice=offsets(np.concatenate([batch.choices for batch in batches])),
         action=np.concatenate([batch.action for batch in batches]),
+        cost=np.concatenate([batch.cost for batch in batches]),
         first_outcome=offsets(np.concatenate([batch.outcomes for batch in batches])),
         successor=order[np.searchsorted(states, targets, sorter=order)].astype(np.int64),
         probability=np.concatenate([batch.probability for batch in batches]),
@@ -106,7 +109,7 @@ def _listing(world: World, states: NDArray[np.int64], batches: Sequence[_Batch])
 
 def _batch(world: World, states: NDArray[np.int64]) -> _Batch:
     stay = len(world.actions)
-    owners, actions, counts, successors, chances = [], [], [], [], []
+    owners, actions, costs, counts, successors, chances = [], [], [], [], [], []
     stuck = np.ones(len(states), dtype=np.bool_)
     for action in range(stay):
         answer = world.outcomes(action, states)
@@ -116,12 +119,14 @@ def _batch(world: World, states: NDArray[np.int64]) -> _Batch:
         happens = chance > 0
         owners.append(enabled)
         actions.append(np.full(len(enabled), action, dtype=np.int64))
+        costs.append(world.cost(action, states[enabled]))
         counts.append(happens.sum(axis=1, dtype=np.int64))
         successors.append(answer.successor.T[enabled][happens])
         chances.append(chance[happens])
     alone = np.flatnonzero(stuck)
     owners.append(alone)
     actions.append(np.full(len(alone), stay, dtype=np.int64))
+    costs.append(np.ones(len(alone)))
     counts.append(np.ones(len(alone), dtype=np.int64))
     successors.append(states[alone])
     chances.append(np.ones(len(alone)))
@@ -131,6 +136,7 @@ def _batch(world: World, states: NDArray[np.int64]) -> _Batch:
     return _Batch(
         choices=np.bincount(owner, minlength=len(states)).astype(np.int64),
         action=np.concatenate(actions)[order],
+        cost=np.concatenate(costs)[order],
         outcomes=count[order],
         successor=np.concatenate(successors)[position].astype(np.int64),
         probability=np.concatenate(chances)[position],

@@ -9,20 +9,20 @@ from models.interchange.grounded import Command, GroundedModel, Update
 from models.interchange.names import label_names
 from models.interchange.prism_explicit import explicit_body
 from models.interchange.rendering import MAX_CHARACTERS
+from models.interchange.rewards import costs_of_actions, reward_lines
 from models.logic import Atom, atom_text
 from models.world import Environment
 from models.world.oomdp import OomdpWorld
 from models.world.resolution import bind_names
-
-_REWARDS = 'rewards "steps"\n  true : 1;\nendrewards'
 
 
 def prism_model(environment: Environment, *, atoms: Sequence[Atom] = ()) -> str:
     """The environment as one PRISM module of an mdp, with the same states, choices and probabilities.
 
     A state attribute is a bounded integer, an applied action a command, each atom a label (`label_names` says which)
-    and the reward structure `steps` counts actions. Parameters of the domain stay constants of the file; outcomes
-    that their values make impossible are left out, so a parameter that was 0 needs a new export to become positive.
+    and the reward structure `steps` counts actions; where some cost other than 1, `costs` has what they cost.
+    Parameters of the domain stay constants of the file; outcomes that their values make impossible are left out, so a
+    parameter that was 0 needs a new export to become positive.
     Where no action is possible the command `stay` changes nothing for ever. Comments give the original names.
 
     Raises ExportTooLargeError, and UnknownPropositionError, UnknownObjectError or TypeMismatchError for an atom that
@@ -32,16 +32,18 @@ def prism_model(environment: Environment, *, atoms: Sequence[Atom] = ()) -> str:
     origin = f"environment of the domain {environment.domain}" if environment.domain else "explicit environment"
     head = [f"// {environment.name}: {origin}, written by cqltl", "mdp"]
     if isinstance(world, OomdpWorld):
-        parts = _oomdp_body(environment, GroundedModel(world), atoms)
+        parts = _oomdp_body(environment, world, GroundedModel(world), atoms)
     else:
         parts = explicit_body(world, atoms)
-    text = "\n".join([*head, *parts, "", _REWARDS]) + "\n"
+    text = "\n".join([*head, *parts]) + "\n"
     if len(text) > MAX_CHARACTERS:
         raise ExportTooLargeError(f"the PRISM text would have more than {MAX_CHARACTERS} characters")
     return text
 
 
-def _oomdp_body(environment: Environment, model: GroundedModel, atoms: Sequence[Atom]) -> Iterator[str]:
+def _oomdp_body(
+    environment: Environment, world: OomdpWorld, model: GroundedModel, atoms: Sequence[Atom]
+) -> Iterator[str]:
     yield from _constants(model)
     yield ""
     yield f"module {model.module}"
@@ -59,6 +61,10 @@ def _oomdp_body(environment: Environment, model: GroundedModel, atoms: Sequence[
     for atom, label in label_names(atoms).items():
         condition = model.proposition(atom.function, bind_names(atom, environment.vocabulary))
         yield f'label "{label}" = {model.write.condition(condition)}; // {atom_text(atom)}'
+    costs = [f"[{command.identifier}] true : {model.write.number(command.cost)}" for command in commands]
+    if stuck is not None:
+        costs.append(f"[{model.stay}] true : 1")
+    yield from reward_lines(costs if (costs_of_actions(world) != 1).any() else [])
 
 
 def _constants(model: GroundedModel) -> Iterator[str]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from models.interchange.listing import Listing, list_valid
 from models.interchange.names import action_names, label_names, number_text
 from models.interchange.rendering import Renderer
+from models.interchange.rewards import reward_lines
 from models.logic import Atom, atom_text
 from models.world import World
 
@@ -33,10 +34,15 @@ def explicit_body(world: World, atoms: Sequence[Atom]) -> Iterator[str]:
         yield ""
     for (atom, label), holds in zip(label_names(atoms).items(), world.labels(list(dict.fromkeys(atoms))), strict=True):
         yield f'label "{label}" = {_where(write, holds)}; // {atom_text(atom)}'
+    yield from reward_lines(_costs(world, listing, write) if (listing.cost != 1).any() else [])
+
+
+def _identifiers(world: World) -> list[str]:
+    return action_names(world.actions, reserved=(_VARIABLE, _MODULE))
 
 
 def _commands(world: World, listing: Listing, write: Renderer) -> Iterator[str]:
-    names = action_names(world.actions, reserved=(_VARIABLE, _MODULE))
+    names = _identifiers(world)
     owner = np.repeat(listing.states, np.diff(listing.first_choice))
     for action, (name, identifier) in enumerate(zip(world.actions, names, strict=False)):
         if name != identifier:
@@ -51,6 +57,20 @@ def _commands(world: World, listing: Listing, write: Renderer) -> Iterator[str]:
     stuck[owner[listing.action == len(world.actions)]] = True
     if stuck.any():
         yield f"  [{names[-1]}] {_where(write, stuck)} -> true; // where nothing is possible"
+
+
+def _costs(world: World, listing: Listing, write: Renderer) -> list[str]:
+    """What each action costs in the states in which it is possible."""
+    names = _identifiers(world)
+    owner = np.repeat(listing.states, np.diff(listing.first_choice))
+    items = []
+    for action in np.unique(listing.action).tolist():
+        taken = listing.action == action
+        for cost in np.unique(listing.cost[taken]).tolist():
+            here = np.zeros(world.size, dtype=np.bool_)
+            here[owner[taken & (listing.cost == cost)]] = True
+            items.append(f"[{names[action]}] {_where(write, here)} : {number_text(cost)}")
+    return items
 
 
 def _outcomes(outcomes: list[tuple[float, int]], listing: Listing) -> str:

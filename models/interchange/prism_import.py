@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from models.interchange.errors import PrismConstantError, PrismModelError
-from models.interchange.extraction import explicit_data
+from models.interchange.extraction import costs_of, explicit_data
+from models.interchange.rewards import COSTS
 from models.interchange.storm import bounded, model_error, sentence, silent, storm, syntax_error
 from models.world.limits import MAX_EXPLICIT_STATES
 
@@ -23,6 +24,7 @@ def read_prism(
     *,
     name: str | None = None,
     constants: Mapping[str, Constant] | None = None,
+    rewards: str | None = None,
     timeout_s: int | None = None,
 ) -> dict[str, Any]:
     """The reachable part of a PRISM model, as the data of an `explicit` environment (see docs/worlds.md).
@@ -30,8 +32,12 @@ def read_prism(
     `source` is the text, or the Path of a file, after which the environment is named unless `name` is given.
     `constants` gives the constants that the model leaves open, also as text (`"0.5"`, `"true"`). Labels become
     propositions, actions keep their names: commands without one are `choice0`, `choice1`, ... in each state, a second
-    choice of the same name gets `_2`; the steps of a DTMC are all called `step`. Rewards are left out. A state in
-    which the model deadlocks has no action. Probabilities are scaled to sum to 1.
+    choice of the same name gets `_2`; the steps of a DTMC are all called `step`. A state in which the model deadlocks
+    has no action. Probabilities are scaled to sum to 1.
+
+    Rewards of a state and of a choice in it together become what the choice costs: those of the structure `rewards`,
+    by default of `costs` or, without one, of the only structure there is. Costs are positive. A structure that is not
+    so everywhere is refused where it was asked for, and left out by default.
 
     With `timeout_s` Storm stops after so many seconds (main thread only): a model may have far too many states.
 
@@ -43,9 +49,16 @@ def read_prism(
         program = _parsed(stormpy, text)
         kind = _kind(program)
         program = _instantiated(stormpy, program, constants or {})
-        model = _built(stormpy, program, timeout_s)
+        structure = _structure(program, rewards)
+        model = _built(stormpy, program, timeout_s, rewards=structure is not None)
         default = source.stem if isinstance(source, Path) else "prism"
-        return explicit_data(model, name=default if name is None else name, labels=_labels(program), kind=kind)
+        return explicit_data(
+            model,
+            name=default if name is None else name,
+            labels=_labels(program),
+            kind=kind,
+            costs=None if structure is None else costs_of(model, structure, wanted=rewards is not None),
+        )
 
 
 def _text(source: str | Path) -> str:
@@ -112,11 +125,25 @@ def _constant(stormpy: Any, name: str, type_: Any, value: Constant) -> Any:
         raise PrismConstantError(f"the constant {name} is {wanted}, not {text[:40]}") from None
 
 
-def _built(stormpy: Any, program: Any, timeout_s: int | None) -> Any:
+def _structure(program: Any, wanted: str | None) -> str | None:
+    """The reward structure that has the costs, if any. Raises PrismModelError where the one `wanted` is not there."""
+    names = [str(structure.name) for structure in program.reward_models]
+    if wanted is not None:
+        if wanted not in names:
+            known = f"it has {_listed([name or '(unnamed)' for name in names])}" if names else "it has none"
+            raise PrismModelError(f"the model has no reward structure {wanted}: {known}")
+        return wanted
+    if COSTS in names:
+        return COSTS
+    return names[0] if len(names) == 1 else None
+
+
+def _built(stormpy: Any, program: Any, timeout_s: int | None, *, rewards: bool) -> Any:
     """The sparse model; raises PrismModelError."""
     options = stormpy.BuilderOptions()
     options.set_build_all_labels()
     options.set_build_choice_labels()
+    options.set_build_all_reward_models(rewards)
     options.set_add_out_of_bounds_state()  # without it Storm wraps such values silently
     try:
         model = stormpy.build_model(program, options=options)

@@ -26,6 +26,7 @@ class _Nodes:
     marks: NDArray[np.int64]  # [n]  of the automaton's transition that read it, as bits
     first_choice: NDArray[np.int64]
     action: NDArray[np.int64]
+    cost: NDArray[np.float64]
     first_outcome: NDArray[np.int64]
     successor: NDArray[np.int64]
     probability: NDArray[np.float64]
@@ -52,7 +53,7 @@ def drn_product(world: World, automaton: Automaton, *, comments: bool = True) ->
     labels |= {name: holds[nodes.row] for name, holds in zip(names.values(), truth, strict=True)}
     graph = Graph(
         0, labels, _comments(world, listing, nodes) if comments else (), nodes.first_choice, nodes.action,
-        nodes.first_outcome, nodes.successor, nodes.probability,
+        nodes.cost, nodes.first_outcome, nodes.successor, nodes.probability,
     )  # fmt: skip
     about = f"{world.name} and {to_text(automaton.formula)}, written by cqltl"
     return drn_text(graph, world, [about, product_property(automaton), *label_notes(names)])
@@ -120,6 +121,7 @@ def _nodes(listing: Listing, kinds: NDArray[np.int64], keys: NDArray[np.int64], 
         marks=kinds[keys // rows % len(kinds)],
         first_choice=offsets(np.diff(listing.first_choice)[row]),
         action=listing.action[choice],
+        cost=listing.cost[choice],
         first_outcome=offsets(np.diff(listing.first_outcome)[choice]),
         successor=order[np.searchsorted(keys, targets, sorter=order)],
         probability=listing.probability[spans(listing.first_outcome, choice)],

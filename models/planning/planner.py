@@ -10,35 +10,17 @@ A solver gives the policy on all states (`dense`, `sparse`); what its runs do is
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import count
 from typing import Literal
 
 import numpy as np
 
-from models.logic import Automaton, Dialect, Formula, Op, Unary, to_text, translate
-from models.planning import codec, dense, sparse
-from models.planning.chain import Chain, explore
-from models.planning.compiled import OUTCOME_BYTES, PRODUCT_OUTCOME_BYTES, check_size
-from models.planning.errors import ModelTooLargeError
+from models.logic import Automaton, Formula, Op, Unary, translate
+from models.planning.finding import Hopeless
+from models.planning.narrowing import first_part, narrowed
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import Policy
-from models.planning.solution import Solution
 from models.planning.trajectory import Trajectory, most_probable_run
-from models.world import (
-    OomdpWorld,
-    ProjectedWorld,
-    ReachableWorld,
-    StateError,
-    World,
-    reachable_part,
-    relevant_part,
-)
-
-MOST_REACHABLE = 1_000_000
-"""States up to which the reachable part of a world that is too large as a whole is explored: some seconds."""
-
-MOST_INDICES = 2**53
-"""State indices beyond which nothing is explored: whoever reads a policy as JSON has floating-point numbers."""
+from models.world import OomdpWorld, StateError, World
 
 Outcome = Literal["solved", "unsatisfiable", "unreachable"]
 
@@ -109,83 +91,24 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
     """The greatest probability of a formula."""
     automaton = translate(formula)
     _check_initial(world, start)
-    part = _part(world, automaton, start, settings)
     if automaton.rejecting[automaton.initial]:
-        return _hopeless("unsatisfiable", part, automaton, start)
-    begin = part.initial if isinstance(part, ProjectedWorld) else start
-    try:
-        solution = _solve(part, automaton, begin, settings, progress)
-    except ModelTooLargeError:
-        smaller = _reachable(part, automaton, begin, settings, progress)
-        if smaller is None:
-            raise
-        part = smaller
-        solution = _solve(part, automaton, part.initial, settings, progress)
-    if solution is None:
-        return _hopeless("unreachable", part, automaton, start)
-    policy = _policy(world, part, automaton, solution, start)
-    chain = explore(world, policy, progress=progress)
+        return _hopeless("unsatisfiable", first_part(world, automaton, start, settings), automaton, start)
+    found = narrowed(world, automaton, start, options=settings, progress=progress)
+    if isinstance(found, Hopeless):
+        return _hopeless("unreachable", found.part, automaton, start)
     return Plan(
         outcome="solved",
-        lower=solution.lower,
-        upper=solution.upper,
-        expected_steps=solution.steps[0],
-        expected_steps_upper=solution.steps[1],
-        round_steps=_rounds(chain, policy, solution),
+        lower=found.solution.lower,
+        upper=found.solution.upper,
+        expected_steps=found.solution.steps[0],
+        expected_steps_upper=found.solution.steps[1],
+        round_steps=found.rounds,
         initial_state=start,
         initial_memory=automaton.initial,
-        policy=policy,
-        trajectory=most_probable_run(chain, policy, automaton),
-        sizes=_sizes(part, automaton),
+        policy=found.policy,
+        trajectory=most_probable_run(found.chain, found.policy, automaton),
+        sizes=_sizes(found.part, automaton),
     )
-
-
-def _solve(part: World, automaton: Automaton, start: int, settings: Options, progress: Progress) -> Solution | None:
-    """The best policy on all states of the part; None where its values are 0 in `start`."""
-    check_size(part.size, automaton.states, settings)
-    solution = dense.solve(part, automaton, start, options=settings, progress=progress)
-    if solution is dense.UNSURE:
-        solution = sparse.solve(part, automaton, start, options=settings, progress=progress)
-    return solution if isinstance(solution, Solution) else None
-
-
-def _reachable(
-    part: World, automaton: Automaton, start: int, settings: Options, progress: Progress
-) -> ReachableWorld | None:
-    """What can be reached of a part that is too large as a whole; None where that is too large as well."""
-    if part.size > MOST_INDICES or part.listed is not None:
-        return None
-    levels = count(1)
-    return reachable_part(
-        part,
-        start,
-        most_states=min(MOST_REACHABLE, settings.max_states // automaton.states),
-        most_outcomes=settings.max_bytes // (OUTCOME_BYTES + PRODUCT_OUTCOME_BYTES),
-        tell=lambda found: progress("compile", next(levels), 0.0, np.inf, found),
-    )
-
-
-def _part(world: World, automaton: Automaton, start: int, settings: Options) -> World:
-    """The part of the world that the formula depends on."""
-    if not settings.relevance or automaton.acceptance or not isinstance(world, OomdpWorld):
-        return world
-    after = automaton.successors
-    twice = after[after, np.arange(after.shape[1])]
-    if (twice != after).any():  # to read a letter twice is not always the same as to read it once
-        return world
-    return relevant_part(world, automaton.atoms, start) or world
-
-
-def _rounds(chain: Chain, policy: Policy, solution: Solution) -> tuple[float, float] | None:
-    """Bounds of the expected steps of a round, over the end components that the policy may come to."""
-    if solution.component is None or not chain.whole:
-        return None
-    row = policy.row[chain.after]
-    component = np.where(row >= 0, solution.component[row, policy.place(chain.state)], -1)
-    met = np.unique(component[component >= 0])
-    if not len(met):
-        return None
-    return float(solution.rounds[met, 0].min()), float(solution.rounds[met, 1].max())
 
 
 def _check_initial(world: World, state: int) -> None:
@@ -214,35 +137,4 @@ def _hopeless(outcome: Outcome, world: World, automaton: Automaton, start: int) 
         policy=None,
         trajectory=None,
         sizes=_sizes(world, automaton),
-    )
-
-
-def _policy(world: World, part: World, automaton: Automaton, solution: Solution, start: int) -> Policy:
-    """Values by row and place, read by memory after the label."""
-    live = np.flatnonzero(~automaton.accepting & ~automaton.rejecting)
-    row = np.full(automaton.states, -1, dtype=np.int32)
-    row[live] = np.arange(len(live), dtype=np.int32)
-    strides = codec.strides(world.variables)
-    harmless = tuple(tuple(range(len(variable.values))) for variable in world.variables)
-    inner = part.whole if isinstance(part, ReachableWorld) else part
-    if isinstance(inner, ProjectedWorld):
-        strides, harmless = inner.projection.inner, inner.projection.harmless
-    return Policy(
-        variables=world.variables,
-        strides=strides,
-        harmless=harmless,
-        indices=part.states if isinstance(part, ReachableWorld) else None,
-        actions=world.actions,
-        formula=to_text(automaton.formula, Dialect.INFIX),
-        atoms=tuple(to_text(atom, Dialect.INFIX) for atom in automaton.atoms),
-        hoa=automaton.hoa,
-        initial_state=start,
-        initial_memory=automaton.initial,
-        successors=automaton.successors,
-        accepted=automaton.accepting,
-        row=row,
-        letter=solution.letter,
-        action=solution.action,
-        probability=solution.probability,
-        expected_steps=solution.expected_steps,
     )

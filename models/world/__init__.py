@@ -15,14 +15,16 @@ from models.world.explanation import explain
 from models.world.explicit import ExplicitWorld
 from models.world.factors import Factored, FactoredAction, Range
 from models.world.grounding import Grounding, PartOfSpeech, ground, speaks_of_others
+from models.world.idling import IdlingWorld
 from models.world.library import builtin_environments
 from models.world.loading import load_environment
 from models.world.mentions import mentions
 from models.world.oomdp import OomdpWorld
 from models.world.outline import Part, outline
+from models.world.projection import ProjectedWorld, Projection
 from models.world.quantifiers import Quantifier, widened, with_values
 from models.world.reachable import ReachableWorld, reachable_part
-from models.world.relevance import ProjectedWorld, Projection, relevant_part
+from models.world.relevance import relevant_part, relevant_parts
 from models.world.resolution import atom_symbols, distinct_name, resolve
 from models.world.specs import DomainSpec, EnvironmentSpec, ExplicitSpec, OomdpSpec
 from models.world.suggestion import suggest
@@ -43,6 +45,7 @@ __all__ = [
     "Function",
     "FunctionParameter",
     "Grounding",
+    "IdlingWorld",
     "OomdpSpec",
     "OomdpWorld",
     "Outcomes",
@@ -75,6 +78,7 @@ __all__ = [
     "outline",
     "reachable_part",
     "relevant_part",
+    "relevant_parts",
     "resolve",
     "speaks_of_others",
     "suggest",

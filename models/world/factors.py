@@ -33,6 +33,11 @@ class Range:
     low: int
     high: int
 
+    @property
+    def reads(self) -> frozenset[int]:
+        """The positions of the variables that it reads."""
+        return frozenset(v for table in self.tables for v in table.scope)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FactoredAction:

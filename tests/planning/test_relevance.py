@@ -50,11 +50,10 @@ def test_the_part_has_the_same_plans(block: int) -> None:
     "formula",
     ["F (holding(box) & X holding(box))", "X X F in(cylinder, box)", "F at(box, kitchen) & X at(robot, bedroom)"],
 )
-def test_formulas_that_count_steps_are_planned_in_the_whole(formula: str) -> None:
+def test_formulas_that_count_steps_have_a_part_too(formula: str) -> None:
     world = compile_world(load_environment(toys_spec(columns=4, toys=2, slip=0.1)))
     assert isinstance(world, OomdpWorld)
-    reduced, full = both_ways(world, formula)
-    assert reduced.sizes == full.sizes
+    same(world, formula)
 
 
 def test_a_world_far_too_large_to_list_is_planned_and_checked() -> None:

@@ -66,6 +66,22 @@ def test_a_prism_model_is_stored_and_planned(tmp_path: Path, capsys: pytest.Capt
     assert "environment-exists" in capsys.readouterr().err
 
 
+def test_rewards_become_costs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("stormpy")
+    file = tmp_path / "counter.prism"
+    steps, time = (f'rewards "{name}" true : {cost}; endrewards\n' for name, cost in (("steps", 1), ("time", 4)))
+    file.write_text(COUNTER + steps + time)
+    arguments = ["import", str(file), "--constant", "N=3"]
+    assert main([*arguments, "--name", "counted"]) == 0
+    assert capsys.readouterr().out == "counted: 4 states, 3 transitions\n"
+    assert main([*arguments, "--name", "timed", "--rewards", "time"]) == 0
+    assert capsys.readouterr().out == "timed: 4 states, 3 transitions, with costs\n"
+    assert main(["plan", "--ltl", "F full", "--environment", "timed"]) == 0
+    assert json.loads(capsys.readouterr().out)["expected_steps"] == pytest.approx(4 * 3 / 0.9)
+    assert main([*arguments, "--name", "other", "--rewards", "energy"]) == 1
+    assert "it has steps, time" in capsys.readouterr().err
+
+
 def test_refusals_say_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("stormpy")
     assert main(["export", "atlantis"]) == 1

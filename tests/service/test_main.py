@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -86,6 +87,24 @@ def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> Non
     assert json.loads(planned.stdout)["environment"] == "filed"
 
 
+def test_options_of_a_plan_are_those_of_the_request(client: httpx.Client, tmp_path: Path) -> None:
+    def planned(*options: str) -> dict[str, Any]:
+        what = ["plan", "--ltl", "F at(robot, bathroom)", "--environment", "toys-4x1-sphere"]
+        found = run_cli(*what, "--server", str(client.base_url), *options, data=tmp_path)
+        answer: dict[str, Any] = json.loads(found.stdout)
+        return answer
+
+    plain, least = planned(), planned("--objective", "min", "--verify")
+    whole = planned("--no-relevance", "--objective", "max")
+    assert (plain["objective"], plain["probability"], plain["verified"]) == ("max", {"lower": 1.0, "upper": 1.0}, None)
+    assert (least["objective"], least["probability"]) == ("min", {"lower": 0.0, "upper": 0.0})  # it stays away
+    assert least["verified"]["probability"] == 0.0
+    assert least["verified"]["sound"]
+    assert plain["model"]["states"] == 4  # where the robot is
+    assert whole["model"]["states"] == 4 * 5 * 6
+    assert whole["expected_steps"] == plain["expected_steps"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "status", "said"),
     [
@@ -93,6 +112,7 @@ def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> Non
         (["plan", "--ltl", "F a", "--environment", "atlantis"], 1, "unknown-environment"),
         (["plan", "--ltl", "F a", "--environment-file", "/no/such/file"], 1, "/no/such/file"),
         (["plan", "--ltl", "F a"], 2, "--environment"),
+        (["plan", "--ltl", "F a", "--environment", "toys", "--objective", "most"], 2, "'max', 'min'"),
         (["explain", "F ("], 1, "formula-syntax"),
         (["explain"], 2, "required"),
         (["fly"], 2, "invalid choice"),

@@ -26,7 +26,7 @@ from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import INVALID, NOTHING
 from models.planning.solution import Solution, smallest
-from models.world import Factored, OomdpWorld, ProjectedWorld, World
+from models.world import Factored, IdlingWorld, OomdpWorld, ProjectedWorld, World
 
 RESIDUAL = 1e-8
 """Rise of values, in units of the cheapest action, up to which what leads to them is not looked at again: the relative
@@ -79,7 +79,11 @@ def solve(
 
     Raises ModelTooLargeError before allocating.
     """
-    if automaton.acceptance or options.device == "cuda" or not isinstance(world, OomdpWorld | ProjectedWorld):
+    if (
+        automaton.acceptance
+        or options.device == "cuda"
+        or not isinstance(world, OomdpWorld | ProjectedWorld | IdlingWorld)
+    ):
         return UNSURE
     factored = world.factored
     if factored is None:
