@@ -58,7 +58,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     app.state.closing = threading.Event()
     install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
-    app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
+    app.add_middleware(BodyLimit, limit=settings.max_body_bytes, depth=settings.max_json_depth)
     for module in (language, explanations, templates, environments, plans, jobs, policies, health):
         app.include_router(module.router)
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
