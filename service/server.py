@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipaddress
 import socket
 import threading
 
@@ -9,6 +10,7 @@ import uvicorn
 from sqlalchemy.engine import make_url
 
 from service.app import create_app
+from service.errors import CannotStartError
 from service.settings import Settings
 
 _TRY = """
@@ -19,8 +21,8 @@ cqltl serves {url}  (documentation: {url}/docs; store: {store}). Try:
 """
 
 
-class CannotListenError(Exception):
-    """The address cannot be bound."""
+class CannotListenError(CannotStartError):
+    """The address cannot be bound, or must not be."""
 
 
 class _Server(uvicorn.Server):
@@ -41,7 +43,12 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, *, host: str, port: int) -> None:
-    """Serve until interrupted; raises `CannotListenError`."""
+    """Serve until interrupted; raises `CannotStartError`."""
+    if settings.api_keys_file is None and not settings.allow_unauthenticated and not _is_loopback(host):
+        raise CannotListenError(
+            f"whoever reaches {host or 'this machine'} could use the service: make API keys with `cqltl keys add` and "
+            "name their file in CQLTL_API_KEYS_FILE, or set CQLTL_ALLOW_UNAUTHENTICATED=true"
+        )
     # asyncio turns Nagle's algorithm off only for sockets that name TCP; with it, every answer waits some 40 ms.
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
@@ -62,5 +69,26 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
             store=make_url(settings.url).render_as_string(hide_password=True),
         )
         app = create_app(settings)
-        config = uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=10)
+        config = uvicorn.Config(
+            app,
+            log_level="warning",
+            timeout_graceful_shutdown=10,
+            proxy_headers=bool(settings.trusted_proxies),
+            forwarded_allow_ips=settings.trusted_proxies,
+            ws="none",
+            server_header=False,
+        )
         _Server(config, said, app.state.closing).run(sockets=[listener])
+
+
+def _is_loopback(host: str) -> bool:
+    """Only this machine reaches the address, whatever its name stands for."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        pass
+    try:
+        found = {entry[4][0] for entry in socket.getaddrinfo(host, None)} if host else set()
+    except OSError:
+        return False
+    return bool(found) and all(ipaddress.ip_address(address).is_loopback for address in found)

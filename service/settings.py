@@ -12,7 +12,7 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 class Settings(BaseSettings):
     """Everything a deployment can set."""
 
-    model_config = SettingsConfigDict(env_prefix="CQLTL_", frozen=True, extra="ignore")
+    model_config = SettingsConfigDict(env_prefix="CQLTL_", env_ignore_empty=True, frozen=True, extra="ignore")
 
     data_dir: Path = Field(Path("data"), description="Folder of the default SQLite file; made when missing.")
     database_url: str = Field("", description="SQLAlchemy URL of the store; empty is cqltl.sqlite3 in data_dir.")

@@ -30,6 +30,10 @@ STATUS: dict[str, int] = {
     "method-not-allowed": 405,
     "http-error": 400,
     "internal": 500,
+    # who sends it
+    "unauthorized": 401,
+    "forbidden": 403,
+    "rate-limited": 429,
     # what it names
     "not-found": 404,
     "unknown-environment": 404,

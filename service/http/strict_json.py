@@ -1,5 +1,5 @@
-"""JSON as RFC 8259 and I-JSON (RFC 7493) have it. Python's own parser reads more: numbers that are none, members that come
-twice (the last one wins), texts that no database keeps.
+"""JSON as RFC 8259 and I-JSON (RFC 7493) have it. Python's own parser reads more: numbers that are none, members that
+come twice (the last one wins), texts that no database keeps.
 """
 
 from __future__ import annotations
