@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import resource
 import socket
 import threading
 
@@ -11,6 +12,7 @@ from sqlalchemy.engine import make_url
 
 from service.app import create_app
 from service.errors import CannotStartError
+from service.http.protocol import protocol_of
 from service.settings import Settings
 
 _TRY = """
@@ -19,6 +21,10 @@ cqltl serves {url}  (documentation: {url}/docs; store: {store}). Try:
   curl --json '{{"text": "Put the cylinder in the box, then put the box in the bedroom", "environment": "toys"}}' \\
     {url}/translate
 """
+
+
+SPARE_FILES = 256
+"""Files that are open besides connections, at most."""
 
 
 class CannotListenError(CannotStartError):
@@ -62,6 +68,7 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
         raise CannotListenError(
             f"cannot listen on {host} port {port} ({reason}); --port or CQLTL_PORT chooses another"
         ) from error
+    _allow_files(settings.max_connections + SPARE_FILES)
     with listener:
         shown = f"[{host}]" if ":" in host else host
         said = _TRY.format(
@@ -73,12 +80,23 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
             app,
             log_level="warning",
             timeout_graceful_shutdown=10,
+            timeout_keep_alive=settings.keep_alive_s,
+            h11_max_incomplete_event_size=settings.max_head_bytes,
+            http=protocol_of(settings),
             proxy_headers=bool(settings.trusted_proxies),
             forwarded_allow_ips=settings.trusted_proxies,
             ws="none",
             server_header=False,
         )
         _Server(config, said, app.state.closing).run(sockets=[listener])
+
+
+def _allow_files(count: int) -> None:
+    """A connection is an open file, of which a process may often have 1024 only unless it asks for more."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = count if hard == resource.RLIM_INFINITY else min(count, hard)
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
 
 
 def _is_loopback(host: str) -> bool:

@@ -27,7 +27,7 @@ class Settings(BaseSettings):
     max_in_flight: int = Field(500, ge=1, description="Requests being answered at a time before 503.")
     head_timeout_s: float = Field(5.0, gt=0, description="Longest time for a request's head to arrive, in seconds.")
     body_timeout_s: float = Field(8.0, gt=0, description="Longest time for a request's body to arrive, in seconds.")
-    keep_alive_s: float = Field(5.0, gt=0, description="How long a connection may be idle between requests.")
+    keep_alive_s: int = Field(5, ge=1, description="How long a connection may be idle between requests.")
     write_timeout_s: float = Field(30.0, gt=0, description="How long a client may leave an answer unread, in seconds.")
     rate_limit: float = Field(0.0, ge=0, description="Requests per second that one client may send; 0 sets no limit.")
     rate_burst: int = Field(20, ge=1, description="Requests that one client may send at once, above the rate.")

@@ -29,6 +29,7 @@ STATUS: dict[str, int] = {
     "unsupported-media-type": 415,
     "method-not-allowed": 405,
     "http-error": 400,
+    "request-timeout": 408,
     "internal": 500,
     # who sends it
     "unauthorized": 401,
