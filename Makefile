@@ -42,6 +42,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.translate
 	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.hostile
+	$(BIN)/python -m benchmarks.slow_clients
 
 bench-language: $(VENV)/.dev  # commands in people's own words
 	$(BIN)/python -m benchmarks.language

@@ -1,4 +1,4 @@
-"""The command line: `cqltl serve | worker | learn | translate | explain | plan | export | import | openapi`."""
+"""The command line: `cqltl serve | worker | keys | learn | translate | explain | plan | export | import | openapi`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from service.exchange import add_commands, export, import_model
+from service.keys_command import add_keys_command, keys
 from service.settings import Settings
 from service.store.engine import is_postgresql
 
@@ -35,7 +36,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "CQLTL_DATABASE_URL: PostgreSQL needs the extra `postgres`: pip install 'cqltl[postgres]'", file=sys.stderr
         )
         return 2
-    commands = {"serve": _serve, "worker": _worker, "openapi": _openapi, "export": _export, "import": _import}
+    commands = {
+        "serve": _serve,
+        "worker": _worker,
+        "keys": _keys,
+        "openapi": _openapi,
+        "export": _export,
+        "import": _import,
+    }
     run = commands.get(options.command, _request)
     return run(settings, options)
 
@@ -50,6 +58,8 @@ def _parser() -> argparse.ArgumentParser:
 
     worker = commands.add_parser("worker", help="plan for the servers on a PostgreSQL database")
     worker.add_argument("--queues", type=_queues, default=["plan"], help="plan (default), gpu, or plan,gpu")
+
+    add_keys_command(commands)
 
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
@@ -118,12 +128,13 @@ def _serve(settings: Settings, options: argparse.Namespace) -> int:
     from service.forkserver import launch
 
     launch()  # before this process loads what it needs itself, so that both load at once
-    from service.server import CannotListenError, serve
+    from service.errors import CannotStartError
+    from service.server import serve
 
     port = settings.port if options.port is None else options.port
     try:
         serve(settings, host=options.host or settings.host, port=port)
-    except CannotListenError as error:
+    except CannotStartError as error:
         print(error, file=sys.stderr)
         return 1
     return 0
@@ -143,6 +154,10 @@ def _worker(settings: Settings, options: argparse.Namespace) -> int:
     migrate(settings.url)
     asyncio.run(work(settings, options.queues, lambda: print(said, flush=True)))
     return 0
+
+
+def _keys(settings: Settings, options: argparse.Namespace) -> int:
+    return keys(settings, options)
 
 
 def _request(settings: Settings, options: argparse.Namespace) -> int:

@@ -14,15 +14,19 @@ from typing import TypedDict
 from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
+from starlette.middleware.cors import CORSMiddleware
 from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
 from service.http import environments, explanations, health, jobs, language, plans, policies, templates
+from service.http.gate import Gate, cors
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
 from service.jobs import EmbeddedExecutor, Executor
+from service.keys import KeyRing
+from service.rates import TokenBuckets
 from service.seeds import seed
 from service.services import Services
 from service.settings import Settings
@@ -44,7 +48,8 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     """The app; its lifespan migrates the store, starts the workers and loads the translators.
 
     `warm` starts the worker processes at once, so that the first plan is as fast as the others, and takes up the jobs
-    that other processes left; without it the app is for a single request.
+    that other processes left; without it the app is for a single request of the process's own, and asks for no key.
+    Raises `KeysError`.
     """
     app = FastAPIOffline(
         redoc_url=None,
@@ -58,7 +63,15 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     app.state.closing = threading.Event()
     install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
-    app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
+    app.add_middleware(BodyLimit, limit=settings.max_body_bytes, depth=settings.max_json_depth)
+    app.add_middleware(
+        Gate,
+        keys=KeyRing(settings.api_keys_file) if warm and settings.api_keys_file else None,
+        rates=TokenBuckets(settings.rate_limit, settings.rate_burst) if settings.rate_limit else None,
+        most=settings.max_in_flight,
+    )
+    if settings.allowed_origins:
+        app.add_middleware(CORSMiddleware, **cors(settings.allowed_origins))
     for module in (language, explanations, templates, environments, plans, jobs, policies, health):
         app.include_router(module.router)
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]

@@ -38,8 +38,9 @@ def _ask(
     method: str, path: str, body: dict[str, Any] | None, server: str | None, settings: Settings
 ) -> tuple[int, Any]:
     if server is not None:
-        status, answer = _send(method, server, path, body)
-        return _ended(server, answer) if status == 202 else (status, answer)
+        key = settings.api_key.get_secret_value()
+        status, answer = _send(method, server, path, body, key)
+        return _ended(server, answer, key) if status == 202 else (status, answer)
     response = asyncio.run(_ask_here(method, path, body, settings))
     return response.status_code, response.json()
 
@@ -49,27 +50,28 @@ def document(*, server: str | None, settings: Settings) -> dict[str, Any]:
     if server is None:
         from service.app import create_app
 
-        return create_app(settings).openapi()
-    status, found = _send("GET", server, "/openapi.json", None)
+        return create_app(settings, warm=False).openapi()
+    status, found = _send("GET", server, "/openapi.json", None, "")
     if status != 200 or not isinstance(found, dict):
         raise UnreachableError(f"{server} has no OpenAPI document: status {status}")
     return found
 
 
-def _send(method: str, server: str, path: str, body: dict[str, Any] | None) -> tuple[int, Any]:
+def _send(method: str, server: str, path: str, body: dict[str, Any] | None, key: str) -> tuple[int, Any]:
+    headers = {"Authorization": f"Bearer {key}"} if key else {}
     url = server.rstrip("/") + path
     try:
-        response = httpx.request(method, url, json=body, timeout=TIMEOUT_S)
+        response = httpx.request(method, url, json=body, headers=headers, timeout=TIMEOUT_S)
         return response.status_code, response.json()
     except (httpx.HTTPError, httpx.InvalidURL, ValueError) as error:
         raise UnreachableError(f"{url}: {error}") from error
 
 
-def _ended(server: str, job: dict[str, Any]) -> tuple[int, Any]:
+def _ended(server: str, job: dict[str, Any], key: str) -> tuple[int, Any]:
     """What became of a job, as if its request had waited."""
     while job["state"] in ("queued", "running"):
         time.sleep(POLL_S)
-        status, job = _send("GET", server, job["url"], None)
+        status, job = _send("GET", server, job["url"], None, key)
         if status != 200:
             return status, job
     if job["state"] == "succeeded":

@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from service.questions import Question
 
 
+class CannotStartError(Exception):
+    """The service cannot start, and nobody has asked it for anything yet; the message is one line that says why."""
+
+
 class NotFoundError(CqltlError):
     """What the request names is not stored."""
 

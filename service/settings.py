@@ -5,14 +5,14 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
-from pydantic import Field
+from pydantic import Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
 class Settings(BaseSettings):
     """Everything a deployment can set."""
 
-    model_config = SettingsConfigDict(env_prefix="CQLTL_", frozen=True, extra="ignore")
+    model_config = SettingsConfigDict(env_prefix="CQLTL_", env_ignore_empty=True, frozen=True, extra="ignore")
 
     data_dir: Path = Field(Path("data"), description="Folder of the default SQLite file; made when missing.")
     database_url: str = Field("", description="SQLAlchemy URL of the store; empty is cqltl.sqlite3 in data_dir.")
@@ -21,6 +21,21 @@ class Settings(BaseSettings):
     workers: int = Field(2, ge=1, le=256, description="Processes that plan; one plan at a time each.")
     max_waiting: int = Field(32, ge=0, description="Requests that may wait for a process before 503.")
     max_body_bytes: int = Field(1_048_576, ge=1, description="Largest request body, in bytes.")
+    max_json_depth: int = Field(64, ge=8, le=500, description="Deepest nesting of arrays and objects in a body.")
+    max_head_bytes: int = Field(16_384, ge=1_024, description="Longest request line with its headers, in bytes.")
+    max_connections: int = Field(1_000, ge=1, description="Connections at a time before 503.")
+    max_in_flight: int = Field(500, ge=1, description="Requests being answered at a time before 503.")
+    head_timeout_s: float = Field(5.0, gt=0, description="Longest time for a request's head to arrive, in seconds.")
+    body_timeout_s: float = Field(8.0, gt=0, description="Longest time for a request's body to arrive, in seconds.")
+    keep_alive_s: int = Field(5, ge=1, description="How long a connection may be idle between requests.")
+    write_timeout_s: float = Field(30.0, gt=0, description="How long a client may leave an answer unread, in seconds.")
+    rate_limit: float = Field(0.0, ge=0, description="Requests per second that one client may send; 0 sets no limit.")
+    rate_burst: int = Field(20, ge=1, description="Requests that one client may send at once, above the rate.")
+    api_keys_file: Path | None = Field(None, description="File of API keys; without it requests need none.")
+    api_key: SecretStr = Field(SecretStr(""), description="API key that the command line sends to `--server`.")
+    allow_unauthenticated: bool = Field(False, description="Listen beyond loopback although no API key is asked for.")
+    allowed_origins: str = Field("", description="Web origins that may read answers (CORS), separated by commas.")
+    trusted_proxies: str = Field("", description="Addresses whose X-Forwarded-For is believed, separated by commas.")
     plan_timeout_s: float = Field(30.0, gt=0, description="Longest time to plan or simulate, in seconds.")
     wait_s: float = Field(5.0, ge=0, description="Seconds that `/plan` waits unless the request prefers otherwise.")
     max_wait_s: float = Field(60.0, ge=0, description="Longest wait that a request may prefer, in seconds.")
@@ -31,6 +46,7 @@ class Settings(BaseSettings):
     worker_memory_bytes: int = Field(
         17_179_869_184, ge=0, description="Address space of one worker process, in bytes; 0 sets no limit."
     )
+    max_store_bytes: int = Field(0, ge=0, description="Largest size of the SQLite file, in bytes; 0 sets no limit.")
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
 

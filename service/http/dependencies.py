@@ -45,7 +45,7 @@ def refusals(*slugs: str) -> dict[int | str, dict[str, Any]]:
     }
 
 
-BODY = ("malformed-json", "body-too-large", "unsupported-media-type", "validation")
+BODY = ("malformed-json", "body-too-large", "body-too-deep", "unsupported-media-type", "validation")
 """What any route with a body may refuse."""
 GROUNDING = (
     "query-syntax",

@@ -1,17 +1,85 @@
-"""Refuses request bodies that are too large, before they are read whole."""
+"""Request bodies: read whole within their limit, and refused when they are not what they say they are."""
 
 from __future__ import annotations
 
+from starlette.datastructures import Headers
+from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.http.problems import problem_response
+from service.http.problems import problem_response, response_of
+from service.http.strict_json import flaw
 
 DRAINED = 16
 """How many times the limit is still read and thrown away before the answer."""
 
 
-class _TooLarge(Exception):
-    pass
+class _Gone(Exception):
+    """The client went away amid its body."""
+
+
+class BodyLimit:
+    """ASGI middleware: the app behind it gets bodies whole, of `limit` bytes at most, uncompressed, and where they are
+    marked as JSON, as JSON nested no deeper than `depth`.
+    """
+
+    def __init__(self, app: ASGIApp, limit: int, depth: int) -> None:
+        self._app, self._limit, self._depth = app, limit, depth
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on with its body, or refuse it."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        headers = Headers(scope=scope)
+        if "transfer-encoding" not in headers and headers.get("content-length", "0") == "0":
+            await self._app(scope, receive, send)
+            return
+        if (refused := self._refused_unread(headers)) is not None:
+            await _drain(receive, DRAINED * self._limit)
+            await refused(scope, receive, send)
+            return
+        try:
+            body = await self._read(receive)
+        except _Gone:
+            return
+        if body is None:
+            await self._too_large()(scope, receive, send)
+        elif body and _is_json(headers) and (found := flaw(bytes(body), self._depth)) is not None:
+            await response_of(found)(scope, receive, send)
+        else:
+            await self._app(scope, _replaying(bytes(body), receive), send)
+
+    def _refused_unread(self, headers: Headers) -> Response | None:
+        declared = headers.get("content-length", "0")
+        if declared.isdigit() and int(declared) > self._limit:
+            return self._too_large()
+        if headers.get("content-encoding", "identity").lower() != "identity":
+            # What a few bytes unpack to has no limit, and no client of ours packs.
+            return _closing(problem_response("unsupported-media-type", "the body is compressed: send it as it is"))
+        return None
+
+    async def _read(self, receive: Receive) -> bytearray | None:
+        """The body; None where it is too large, and then most of the rest is read too."""
+        body, more = bytearray(), True
+        while more:
+            message = await receive()
+            if message["type"] != "http.request":
+                raise _Gone
+            body += message.get("body", b"")
+            more = message.get("more_body", False)
+            if len(body) > self._limit:
+                if more:
+                    await _drain(receive, DRAINED * self._limit)
+                return None
+        return body
+
+    def _too_large(self) -> Response:
+        return _closing(problem_response("body-too-large", f"the body has more than {self._limit} bytes"))
+
+
+def _closing(response: Response) -> Response:
+    response.headers["Connection"] = "close"
+    return response
 
 
 async def _drain(receive: Receive, most: int) -> None:
@@ -24,47 +92,20 @@ async def _drain(receive: Receive, most: int) -> None:
             return
 
 
-class BodyLimit:
-    """ASGI middleware: a body of more than `limit` bytes is answered 413, whatever its declared length."""
+def _is_json(headers: Headers) -> bool:
+    kind = headers.get("content-type", "").partition(";")[0].strip().lower()
+    return kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))
 
-    def __init__(self, app: ASGIApp, limit: int) -> None:
-        self._app, self._limit = app, limit
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on, counting the bytes of its body."""
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
-        received, more, exceeded, started = 0, True, False, False
+def _replaying(body: bytes, receive: Receive) -> Receive:
+    """What gives the body in one piece, and then whatever comes."""
+    given = False
 
-        async def counted() -> Message:
-            nonlocal received, more, exceeded
-            message = await receive()
-            received += len(message.get("body", b""))
-            more = message.get("more_body", False)
-            if received > self._limit:
-                exceeded = True
-                raise _TooLarge
-            return message
+    async def replayed() -> Message:
+        nonlocal given
+        if given:
+            return await receive()
+        given = True
+        return {"type": "http.request", "body": body, "more_body": False}
 
-        async def noted(message: Message) -> None:
-            nonlocal started
-            if exceeded and not started:
-                return  # the framework's own answer to the interrupted body
-            started = True
-            await send(message)
-
-        declared = dict(scope["headers"]).get(b"content-length", b"0")
-        exceeded = declared.isdigit() and int(declared) > self._limit
-        if not exceeded:
-            try:
-                await self._app(scope, counted, noted)
-            except _TooLarge:
-                if started:
-                    raise
-        if exceeded and not started:
-            if more:
-                await _drain(receive, DRAINED * self._limit)
-            response = problem_response("body-too-large", f"the body has more than {self._limit} bytes")
-            response.headers["Connection"] = "close"
-            await response(scope, receive, send)
+    return replayed

@@ -14,7 +14,6 @@ from sqlalchemy.exc import DataError, OperationalError
 from starlette.exceptions import HTTPException
 
 from models.errors import CqltlError
-from models.source import locate
 from service.http.schemas.problems import ErrorPlace, Problem
 from service.refusals import refusal_data
 
@@ -26,10 +25,16 @@ STATUS: dict[str, int] = {
     "malformed-json": 400,
     "validation": 422,
     "body-too-large": 413,
+    "body-too-deep": 422,
     "unsupported-media-type": 415,
     "method-not-allowed": 405,
     "http-error": 400,
+    "request-timeout": 408,
     "internal": 500,
+    # who sends it
+    "unauthorized": 401,
+    "forbidden": 403,
+    "rate-limited": 429,
     # what it names
     "not-found": 404,
     "unknown-environment": 404,
@@ -121,24 +126,12 @@ def _refused(_request: Request, error: Exception) -> JSONResponse:
 def _invalid(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     found = error.errors()
-    if any(item["type"] == "json_invalid" for item in found):
-        return _malformed(found[0], error.body)
     if isinstance(error.body, (str, bytes)) and "json" not in request.headers.get("content-type", ""):
         detail = "the body is not marked as JSON: send it with the header Content-Type: application/json"
         return problem_response("unsupported-media-type", detail)
     places = [ErrorPlace(pointer=_pointer(item, error.body), detail=item["msg"]) for item in found]
     first = places[0]
     return problem_response("validation", f"{first.pointer or 'the request'}: {first.detail}", errors=places)
-
-
-def _malformed(item: Mapping[str, Any], body: Any) -> JSONResponse:
-    """A body that is not JSON, with line, column and caret where the parser says how far it got."""
-    detail = f"the body is not JSON: {item.get('ctx', {}).get('error', 'it does not parse')}"
-    offset = item["loc"][-1]
-    if not isinstance(body, str) or not isinstance(offset, int):
-        return problem_response("malformed-json", detail)
-    place = locate(body, min(offset, len(body)))
-    return problem_response("malformed-json", detail, line=place.line, column=place.column, caret=place.caret)
 
 
 def _pointer(item: Mapping[str, Any], body: Any) -> str:

@@ -16,6 +16,8 @@ from service.settings import Settings
 
 DOCS = Path(__file__).parents[2] / "docs"
 
+SETTINGS = Settings.model_fields
+
 INTERNAL = {"error", "invalid-name", "invalid-policy", "invalid-vocabulary", "invalid-weights", "invalid-training"}
 INTERNAL |= {"export-too-large", "storm-missing", "prism-syntax", "prism-constant", "prism-model", "uncheckable"}
 """Slugs of refusals that no request can meet: some are the command line's, some turn into something else."""
@@ -51,5 +53,24 @@ def test_every_kind_of_task_is_documented_with_formulas_of_it() -> None:
 
 def test_every_setting_is_documented_with_its_default() -> None:
     rows = re.findall(r"^\| `CQLTL_(\w+)` \| (?:`(.*?)`)? ?\|", (DOCS / "settings.md").read_text(), re.MULTILINE)
-    settings = {name.upper(): str(field.default) for name, field in Settings.model_fields.items()}
-    assert dict(rows) == settings
+    found = {name.upper(): "" if field.default is None else str(field.default) for name, field in SETTINGS.items()}
+    assert dict(rows) == found
+
+
+def test_every_setting_has_a_meaning_and_every_number_a_unit() -> None:
+    rows = re.findall(r"^\| `CQLTL_(\w+)` \|.*?\|(.*?)\|(.*?)\|$", (DOCS / "settings.md").read_text(), re.MULTILINE)
+    assert [name for name, _, meaning in rows if not meaning.strip()] == []
+    units = {name: unit.strip() for name, unit, _ in rows}
+    numbers = [name.upper() for name, field in SETTINGS.items() if field.annotation in (int, float)]
+    assert [name for name in numbers if not units[name]] == []
+    assert [name for name in numbers if name.endswith("_S") != (units[name] == "seconds")] == []
+    assert [name for name in numbers if name.endswith("_BYTES") != (units[name] == "bytes")] == []
+
+
+def test_no_setting_is_read_elsewhere() -> None:
+    """One table: the code asks the environment for nothing of ours but through it."""
+    known = {f"CQLTL_{name.upper()}" for name in SETTINGS}
+    for package in (models, service):
+        for file in Path(package.__path__[0]).rglob("*.py"):
+            said = set(re.findall(r"CQLTL_[A-Z_]+[A-Z]", file.read_text(encoding="utf-8")))
+            assert said <= known, file

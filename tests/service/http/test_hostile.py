@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import concurrent.futures
+import gzip
 import socket
 import time
 
@@ -100,7 +101,33 @@ def test_wrong_types(client: httpx.Client, route: str, body: object) -> None:
 def test_numbers_that_are_none(client: httpx.Client, number: str) -> None:
     text = '{"ltl": "F holding(sphere)", "environment": "toys", "options": {"epsilon": %s}}' % number  # noqa: UP031
     response = client.post("/plan", content=text, headers={"content-type": "application/json"})
-    check_problem(response, "validation", 422, ["/options/epsilon"])
+    if number == "1e999":  # it is JSON
+        check_problem(response, "validation", 422, ["/options/epsilon"])
+    else:
+        assert number in check_problem(response, "malformed-json", 400)["detail"]
+
+
+BODIES = {
+    "twice": (b'{"text": "go", "text": "stay"}', "malformed-json", 400),
+    "deep": (b'{"text":' + b"[" * 65 + b"]" * 65 + b"}", "body-too-deep", 422),
+    "nul": (rb'{"text": "go\u0000"}', "validation", 422),
+    "surrogate": (rb'{"text": "go\udc00"}', "validation", 422),
+    "utf-16": ('{"text": "go"}'.encode("utf-16"), "malformed-json", 400),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("route", ROUTES)
+def test_bodies_that_are_unclear(client: httpx.Client, route: str, name: str) -> None:
+    body, slug, status = BODIES[name]
+    check_problem(client.post(route, content=body, headers={"content-type": "application/json"}), slug, status)
+
+
+@pytest.mark.parametrize("encoding", ["gzip", "deflate", "br", "identity, gzip"])
+def test_a_compressed_body_is_refused_unread(client: httpx.Client, encoding: str) -> None:
+    bomb = gzip.compress(b'{"text": "' + b"a" * 200_000_000 + b'"}', compresslevel=1)
+    headers = {"content-type": "application/json", "content-encoding": encoding}
+    check_problem(client.post("/translate", content=bomb, headers=headers), "unsupported-media-type", 415)
 
 
 def test_a_body_beyond_the_limit_is_refused_whole(client: httpx.Client) -> None:
