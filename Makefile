@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz check format openapi train evaluate evaluate-human bench bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz wheel-check clients check format openapi train evaluate evaluate-human bench bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -13,6 +13,13 @@ test: $(VENV)/.dev
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest
+
+wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environment of its own
+	$(BIN)/python -m pytest -m long tests/packaging
+
+clients: $(VENV)/.dev  # clients generated from openapi.yaml, in build/clients, driven against a live server
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,clients]'
+	$(BIN)/python -m pytest -m long tests/clients
 
 check: $(VENV)/.dev
 	$(BIN)/ruff check .

@@ -73,3 +73,21 @@ def test_every_status_that_slugs_have_is_documented_somewhere(document: dict[str
     assert {
         str(status) for slug, status in STATUS.items() if slug not in ("internal", "method-not-allowed")
     } <= documented
+
+
+def test_the_file_has_no_aliases() -> None:
+    """YAML libraries expand a few, and openapi-generator's refuses more."""
+    events = list(yaml.parse((ROOT / "openapi.yaml").read_text(encoding="utf-8")))
+    assert not [event for event in events if isinstance(event, yaml.AliasEvent)]
+
+
+def test_every_union_and_state_has_a_name(document: dict[str, Any]) -> None:
+    """Generators make a type of each schema, with the name of the component or, where it has none, an odd one."""
+    components = document["components"]["schemas"]
+    unions = [name for name, schema in components.items() if "oneOf" in schema]
+    assert unions == ["EnvironmentSpec"]
+    text = str({**document, "components": {name: s for name, s in components.items() if name not in unions}})
+    assert "'oneOf'" not in text
+    for request in ("PlanRequest", "TranslateRequest", "GroundRequest", "StepRequest"):
+        state = components[request]["properties"]["state"]
+        assert "#/components/schemas/State" in str(state), request
