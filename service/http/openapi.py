@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
+from service.http.links import document_links
 from service.http.problems import MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
@@ -43,6 +44,7 @@ def openapi(app: FastAPI) -> dict[str, Any]:
         _document_problems(document)
         _document_streams(document)
         _name_schemas(document)
+        document_links(document)
         app.openapi_schema = document
     return app.openapi_schema
 

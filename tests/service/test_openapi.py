@@ -91,3 +91,48 @@ def test_every_union_and_state_has_a_name(document: dict[str, Any]) -> None:
     for request in ("PlanRequest", "TranslateRequest", "GroundRequest", "StepRequest"):
         state = components[request]["properties"]["state"]
         assert "#/components/schemas/State" in str(state), request
+
+
+def test_links_go_on_to_what_is_there(document: dict[str, Any]) -> None:
+    """Their operations take the parameters, all that are in the path; their answers and bodies have the members."""
+    operations = {
+        operation["operationId"]: operation for path in document["paths"].values() for operation in path.values()
+    }
+    links = [
+        (operation, response, link)
+        for operation in operations.values()
+        for response in operation["responses"].values()
+        for link in response.get("links", {}).values()
+    ]
+    assert len(links) >= 10
+    for _, response, link in links:
+        target = operations[link["operationId"]]
+        needed = {parameter["name"] for parameter in target["parameters"] if parameter["in"] == "path"}
+        assert set(link["parameters"]) == needed
+        for expression in [*link["parameters"].values(), *link.get("requestBody", {}).values()]:
+            schema = response["content"]["application/json"]["schema"]
+            for member in expression.removeprefix("$response.body#/").split("/"):
+                schema = resolved(document, schema)["properties"][member]
+        if "requestBody" in link:
+            body = target["requestBody"]["content"]["application/json"]["schema"]
+            assert set(link["requestBody"]) <= set(resolved(document, body)["properties"])
+
+
+def resolved(document: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
+    """What a reference refers to, and what is not null of something that may be null."""
+    schema = next((part for part in schema.get("anyOf", []) if part != {"type": "null"}), schema)
+    found: dict[str, Any] = document["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
+    return found
+
+
+def test_the_requests_that_are_shown_are_answered(client: httpx.Client, document: dict[str, Any]) -> None:
+    shown = 0
+    for path, operations in document["paths"].items():
+        for operation in operations.values():
+            content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
+            name = content.get("schema", {}).get("$ref", "").rpartition("/")[2]
+            for body in document["components"]["schemas"].get(name, {}).get("examples", []):
+                response = client.post(path, json=body, headers={"Prefer": "wait=60"} if path == "/plan" else {})
+                assert response.is_success, (path, body, response.text)
+                shown += 1
+    assert shown >= 6
