@@ -68,7 +68,10 @@ def order(client: httpx.Client, name: str) -> Record:
     if answer.status_code == 503:  # as many wait as may: nothing was accepted, try again
         time.sleep(0.05)
         return order(client, name)
-    return str(answer.raise_for_status().json()["url"]), {"state": "succeeded"}
+    made = answer.raise_for_status().json()
+    if answer.status_code == 200:  # planned before the service had a look whether it is to wait
+        return str(made["policy"]["url"]), {"ltl": "F goal"}
+    return str(made["url"]), {"state": "succeeded"}
 
 
 @dataclass

@@ -8,7 +8,7 @@ from benchmarks.reliability import Soak, Usage, soak, survive, write_at_once
 
 
 def test_what_was_acknowledged_survives_kills_at_random_moments(tmp_path: Path) -> None:
-    found = survive(tmp_path, kills=20)
+    found = survive(tmp_path, kills=12)
     assert (found.lost, found.refused, found.corrupt) == ([], [], [])
     assert found.good
 
