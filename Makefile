@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz check format openapi train evaluate evaluate-human bench bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -13,6 +13,16 @@ test: $(VENV)/.dev
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest
+
+wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environment of its own
+	$(BIN)/python -m pytest -m long tests/packaging
+
+schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
+	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py
+
+clients: $(VENV)/.dev  # clients generated from openapi.yaml, in build/clients, driven against a live server
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,clients]'
+	$(BIN)/python -m pytest -m long tests/clients
 
 check: $(VENV)/.dev
 	$(BIN)/ruff check .
@@ -43,6 +53,12 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.hostile
 	$(BIN)/python -m benchmarks.slow_clients
+
+bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500 jobs; about half an hour
+	$(BIN)/python -m benchmarks.reliability
+
+bench-load: $(VENV)/.dev  # how much can be served, beside an empty endpoint; needs wrk
+	$(BIN)/python -m benchmarks.load
 
 bench-language: $(VENV)/.dev  # commands in people's own words
 	$(BIN)/python -m benchmarks.language

@@ -6,7 +6,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -25,10 +25,17 @@ def serving(folder: Path | None = None, **environment: str) -> Iterator[httpx.Cl
 
 
 @contextmanager
-def started(folder: Path, **environment: str) -> Iterator[subprocess.Popen[str]]:
-    """The process of a server that may not listen yet; terminated when the context ends."""
+def started(
+    folder: Path, *, cqltl: Sequence[str] = (sys.executable, "-m", "service"), **environment: str
+) -> Iterator[subprocess.Popen[str]]:
+    """The process of a server that may not listen yet; terminated when the context ends.
+
+    `cqltl` is the command to run; another one than this code's is run in `folder`, as after an installation.
+    """
+    ours = cqltl[0] == sys.executable
     with subprocess.Popen(
-        [sys.executable, "-m", "service", "serve", "--port", "0"],
+        [*cqltl, "serve", "--port", "0"],
+        cwd=None if ours else folder,
         env={**os.environ, "CQLTL_DATA_DIR": str(folder), "CQLTL_DATABASE_URL": "", **environment},
         stdout=subprocess.PIPE,
         text=True,

@@ -221,7 +221,8 @@ def _openapi(settings: Settings, options: argparse.Namespace) -> int:
     except UnreachableError as error:
         print(error, file=sys.stderr)
         return 1
-    text = yaml.safe_dump(found, sort_keys=False, allow_unicode=True, width=100)
+    separate = json.loads(json.dumps(found))  # what two places share would be an alias, of which generators read few
+    text = yaml.safe_dump(separate, sort_keys=False, allow_unicode=True, width=100)
     if options.check is not None:
         if options.check.read_text(encoding="utf-8") == text:
             return 0

@@ -7,9 +7,26 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
+from service.http.links import document_links
 from service.http.problems import MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
+_ENVIRONMENT = {
+    "oneOf": [{"$ref": "#/components/schemas/OomdpSpec"}, {"$ref": "#/components/schemas/ExplicitSpec"}],
+    "discriminator": {
+        "mapping": {"explicit": "#/components/schemas/ExplicitSpec", "oomdp": "#/components/schemas/OomdpSpec"},
+        "propertyName": "kind",
+    },
+}
+_STATE = {
+    "type": "object",
+    "additionalProperties": {"type": "object", "additionalProperties": {"type": "string"}},
+}
+_NAMED = {
+    "EnvironmentSpec": ("A world: an object-oriented MDP, or one listed state by state.", _ENVIRONMENT),
+    "State": ("What is observed: object to attribute to value.", _STATE),
+}
+"""Schemas that FastAPI writes out where they are used. Generators would make a type of each use, with odd names."""
 
 
 def openapi(app: FastAPI) -> dict[str, Any]:
@@ -26,6 +43,8 @@ def openapi(app: FastAPI) -> dict[str, Any]:
         )
         _document_problems(document)
         _document_streams(document)
+        _name_schemas(document)
+        document_links(document)
         app.openapi_schema = document
     return app.openapi_schema
 
@@ -57,3 +76,24 @@ def _document_streams(document: dict[str, Any]) -> None:
                 content = response.get("content", {})
                 if "text/event-stream" in content:
                     content["text/event-stream"] = {"schema": {"type": "string"}}
+
+
+def _name_schemas(document: dict[str, Any]) -> None:
+    """Have every use of those refer to one that has a name."""
+    document.update(_named(document))
+    schemas = document["components"]["schemas"]
+    for name, (description, schema) in _NAMED.items():
+        schemas[name] = {"title": name, "description": description, **schema}
+    document["components"]["schemas"] = dict(sorted(schemas.items()))
+
+
+def _named(part: Any) -> Any:
+    if isinstance(part, list):
+        return [_named(item) for item in part]
+    if not isinstance(part, dict):
+        return part
+    for name, (_, schema) in _NAMED.items():
+        if schema == {key: value for key, value in part.items() if key not in ("title", "description")}:
+            said = {"description": part["description"]} if "description" in part else {}
+            return {"$ref": f"#/components/schemas/{name}", **said}
+    return {key: _named(value) for key, value in part.items()}

@@ -12,6 +12,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from sqlalchemy.exc import DataError, OperationalError
 from starlette.exceptions import HTTPException
+from starlette.routing import Match
 
 from models.errors import CqltlError
 from service.http.schemas.problems import ErrorPlace, Problem
@@ -85,6 +86,8 @@ STATUS: dict[str, int] = {
 }
 """Status of every slug."""
 
+METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
+
 _log = logging.getLogger("cqltl")
 
 
@@ -155,13 +158,25 @@ def _pointer(item: Mapping[str, Any], body: Any) -> str:
     return "".join(f"/{part}" for part in parts)
 
 
-def _http_error(_request: Request, error: Exception) -> JSONResponse:
+def _http_error(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, HTTPException)
     slug = {404: "not-found", 405: "method-not-allowed", 413: "body-too-large"}.get(error.status_code, "http-error")
     detail = error.detail or HTTPStatus(error.status_code).phrase
     response = problem_response(slug, str(detail), status=error.status_code)
     response.headers.update(error.headers or {})
+    if error.status_code == 405:
+        response.headers["Allow"] = ", ".join(_allowed(request))
     return response
+
+
+def _allowed(request: Request) -> list[str]:
+    """The methods of the path; the framework names those of one of its routes."""
+
+    def has(method: str) -> bool:
+        scope = {**request.scope, "method": method}
+        return any(route.matches(scope)[0] is Match.FULL for route in request.app.routes)
+
+    return [method for method in METHODS if has(method)]
 
 
 def _store_unavailable(request: Request, error: Exception) -> JSONResponse:

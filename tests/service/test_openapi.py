@@ -73,3 +73,66 @@ def test_every_status_that_slugs_have_is_documented_somewhere(document: dict[str
     assert {
         str(status) for slug, status in STATUS.items() if slug not in ("internal", "method-not-allowed")
     } <= documented
+
+
+def test_the_file_has_no_aliases() -> None:
+    """YAML libraries expand a few, and openapi-generator's refuses more."""
+    events = list(yaml.parse((ROOT / "openapi.yaml").read_text(encoding="utf-8")))
+    assert not [event for event in events if isinstance(event, yaml.AliasEvent)]
+
+
+def test_every_union_and_state_has_a_name(document: dict[str, Any]) -> None:
+    """Generators make a type of each schema, with the name of the component or, where it has none, an odd one."""
+    components = document["components"]["schemas"]
+    unions = [name for name, schema in components.items() if "oneOf" in schema]
+    assert unions == ["EnvironmentSpec"]
+    text = str({**document, "components": {name: s for name, s in components.items() if name not in unions}})
+    assert "'oneOf'" not in text
+    for request in ("PlanRequest", "TranslateRequest", "GroundRequest", "StepRequest"):
+        state = components[request]["properties"]["state"]
+        assert "#/components/schemas/State" in str(state), request
+
+
+def test_links_go_on_to_what_is_there(document: dict[str, Any]) -> None:
+    """Their operations take the parameters, all that are in the path; their answers and bodies have the members."""
+    operations = {
+        operation["operationId"]: operation for path in document["paths"].values() for operation in path.values()
+    }
+    links = [
+        (operation, response, link)
+        for operation in operations.values()
+        for response in operation["responses"].values()
+        for link in response.get("links", {}).values()
+    ]
+    assert len(links) >= 10
+    for _, response, link in links:
+        target = operations[link["operationId"]]
+        needed = {parameter["name"] for parameter in target["parameters"] if parameter["in"] == "path"}
+        assert set(link["parameters"]) == needed
+        for expression in [*link["parameters"].values(), *link.get("requestBody", {}).values()]:
+            schema = response["content"]["application/json"]["schema"]
+            for member in expression.removeprefix("$response.body#/").split("/"):
+                schema = resolved(document, schema)["properties"][member]
+        if "requestBody" in link:
+            body = target["requestBody"]["content"]["application/json"]["schema"]
+            assert set(link["requestBody"]) <= set(resolved(document, body)["properties"])
+
+
+def resolved(document: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
+    """What a reference refers to, and what is not null of something that may be null."""
+    schema = next((part for part in schema.get("anyOf", []) if part != {"type": "null"}), schema)
+    found: dict[str, Any] = document["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
+    return found
+
+
+def test_the_requests_that_are_shown_are_answered(client: httpx.Client, document: dict[str, Any]) -> None:
+    shown = 0
+    for path, operations in document["paths"].items():
+        for operation in operations.values():
+            content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
+            name = content.get("schema", {}).get("$ref", "").rpartition("/")[2]
+            for body in document["components"]["schemas"].get(name, {}).get("examples", []):
+                response = client.post(path, json=body, headers={"Prefer": "wait=60"} if path == "/plan" else {})
+                assert response.is_success, (path, body, response.text)
+                shown += 1
+    assert shown >= 6

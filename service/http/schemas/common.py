@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -30,6 +30,11 @@ class Request(BaseModel):
     """A request body; unknown members are refused."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
+
+
+def shown(*examples: dict[str, Any]) -> ConfigDict:
+    """The configuration of a request of which the documentation shows these."""
+    return ConfigDict(json_schema_extra={"examples": list(examples)})
 
 
 class ContextualQueryTree(BaseModel):

@@ -7,11 +7,13 @@ from typing import Self
 from pydantic import BaseModel, Field, model_validator
 
 from models.logic import PropertyClass
-from service.http.schemas.common import ContextualQueryTree, EnvironmentName, FormulaText, QueryText, Request
+from service.http.schemas.common import ContextualQueryTree, EnvironmentName, FormulaText, QueryText, Request, shown
 
 
 class ExplainRequest(Request):
     """What to read back: exactly one of `ltl`, `contextual_query`, `query`."""
+
+    model_config = shown({"ltl": "F (at(robot, kitchen) & F holding(sphere))", "environment": "toys"})
 
     ltl: FormulaText | None = None
     contextual_query: QueryText | None = None

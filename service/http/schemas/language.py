@@ -19,6 +19,7 @@ from service.http.schemas.common import (
     Request,
     State,
     TranslatorName,
+    shown,
 )
 from service.http.schemas.problems import ErrorPlace
 
@@ -108,6 +109,15 @@ class PairIn(Request):
 class LearnRequest(PairIn):
     """One example of a task; `more` are further examples of the same task, whose possible mappings are intersected."""
 
+    model_config = shown(
+        {
+            "contextual_query": "store(sphere, box)",
+            "ltl": "F in(sphere, box)",
+            "environment": "toys",
+            "examples": ["store the sphere in the box"],
+        }
+    )
+
     environment: EnvironmentName
     more: list[PairIn] = Field(default_factory=list, max_length=20)
     examples: list[Command] = Field(
@@ -185,6 +195,8 @@ class TemplateList(BaseModel):
 
 class GroundRequest(Request):
     """A contextual query to evaluate: as text, or in parts."""
+
+    model_config = shown({"contextual_query": "ship(cylinder, box, bedroom)", "environment": "toys"})
 
     contextual_query: QueryText | None = None
     query: ContextualQueryTree | None = None

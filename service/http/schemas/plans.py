@@ -18,6 +18,7 @@ from service.http.schemas.common import (
     Request,
     State,
     TranslatorName,
+    shown,
 )
 
 
@@ -49,6 +50,12 @@ class PlanRequest(Request):
     """What to plan: exactly one of `text`, `contextual_query`, `query`, `ltl`, and one of `environment`,
     `environment_spec`.
     """
+
+    model_config = shown(
+        {"text": "Pickup the sphere", "environment": "toys-4x1-sphere"},
+        {"contextual_query": "ship(cylinder, box, bedroom)", "environment": "toys-4x1-cylinder"},
+        {"ltl": "F holding(sphere) & G !at(robot, bedroom)", "environment": "toys-4x1-sphere"},
+    )
 
     text: Command | None = None
     contextual_query: QueryText | None = None

@@ -148,7 +148,11 @@ def test_a_body_whose_last_chunk_is_too_much(client: httpx.Client) -> None:
 
 def test_unknown_paths_and_methods(client: httpx.Client) -> None:
     check_problem(client.get("/nowhere"), "not-found", 404)
-    check_problem(client.get("/translate"), "method-not-allowed", 405)
+    for path, methods in {"/translate": "POST", "/environments": "GET, POST", "/jobs": "GET"}.items():
+        refused = client.patch(path)
+        check_problem(refused, "method-not-allowed", 405)
+        assert refused.headers["allow"] == methods
+    assert client.patch("/environments/toys").headers["allow"] == "DELETE, GET, PUT"
     check_problem(client.get("/environments/" + "x" * 5_000), "unknown-environment", 404)
     check_problem(client.get("/environments/%00"), "unknown-environment", 404)
 

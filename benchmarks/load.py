@@ -1,0 +1,204 @@
+"""How much the service serves, beside an empty endpoint of FastAPI on the same machine in the same run.
+
+    python -m benchmarks.load [--seconds 20] [--connections 16] [--json FILE]
+
+For `/translate` with texts that differ, in an environment and without one, and for `/policies/{id}/step`: requests a
+second at saturation by wrk, the share of what the empty endpoint serves right before, and then the latency at half of
+that load. For the latency, requests are sent at fixed times, whatever became of those before (an open loop); each is
+timed from when it was due, so a queue that builds up is seen. Load generator and service share the machine's cores.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import itertools
+import json
+import os
+import platform
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import httpx
+
+from benchmarks.server import serving
+
+THINGS = ("sphere", "cylinder", "bag", "ball", "cube", "box")
+ROOMS = ("kitchen", "bedroom", "bathroom", "living room")
+WORDINGS = (
+    "pick up the {thing}",
+    "go to the {room}",
+    "please go and get the {thing}",
+    "put the {thing} in the box, then put the box in the {room}",
+    "I would like you to visit the {room}",
+    "go to the {room} but never touch the {thing}",
+    "fetch the {thing} and then go to the {room}",
+)
+WRK = """
+local bodies = {}
+for line in io.lines("BODIES") do bodies[#bodies + 1] = line end
+wrk.method = "POST"
+wrk.headers["Content-Type"] = "application/json"
+local number = 0
+request = function()
+  number = number % #bodies + 1
+  return wrk.format(nil, nil, nil, bodies[number])
+end
+done = function(summary, latency, requests)
+  local errors = summary.errors
+  io.write(string.format("CQLTL %d %d %d\\n", summary.requests, summary.duration,
+    errors.status + errors.connect + errors.read + errors.write + errors.timeout))
+end
+"""
+
+
+@dataclass(frozen=True)
+class Row:
+    """What was measured of one kind of request."""
+
+    request: str
+    served: float
+    """Requests a second at saturation."""
+    empty: float
+    """The same of the empty endpoint, right before."""
+    errors: int
+    half_p50_ms: float
+    half_p99_ms: float
+
+
+def bodies(environment: str | None) -> list[str]:
+    """Translations of every wording with every thing and room, in an order that mixes them."""
+    texts = {w.format(thing=t, room=r) for t, r, w in itertools.product(THINGS, ROOMS, WORDINGS)}
+    named = {} if environment is None else {"environment": environment}
+    return [json.dumps({"text": text, **named}) for text in sorted(texts, key=lambda text: hash_of(text))]
+
+
+def hash_of(text: str) -> int:
+    """The same in every run, unlike `hash`."""
+    return int.from_bytes(text.encode(), "big") % 10_007
+
+
+@contextmanager
+def empty_endpoint() -> Iterator[str]:
+    """The address of the yardstick."""
+    command = [sys.executable, "-m", "benchmarks.empty"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield process.stdout.readline().split()[1]
+        finally:
+            process.terminate()
+
+
+def saturate(url: str, sent: Sequence[str], seconds: float, connections: int) -> tuple[float, int]:
+    """Requests a second that wrk gets answered, and how many were not answered 2xx."""
+    with tempfile.TemporaryDirectory() as folder:
+        lines, script = Path(folder) / "bodies", Path(folder) / "post.lua"
+        lines.write_text("\n".join(sent) + "\n", encoding="utf-8")
+        script.write_text(WRK.replace("BODIES", str(lines)), encoding="utf-8")
+        command = ["wrk", "--threads", "1", "--connections", str(connections), "--duration", f"{seconds:.0f}s"]
+        said = subprocess.run([*command, "--timeout", "30s", "--script", script, url], check=True, capture_output=True)
+    found = re.search(r"^CQLTL (\d+) (\d+) (\d+)$", said.stdout.decode(), re.MULTILINE)
+    assert found is not None, said.stdout.decode()
+    requests, microseconds, errors = map(int, found.groups())
+    return requests / microseconds * 1e6, errors
+
+
+async def paced(url: str, sent: Sequence[str], seconds: float, rate: float) -> list[float]:
+    """Milliseconds from when each request was due until it was answered, at so many a second."""
+    parts = urlsplit(url)
+    idle: list[tuple[asyncio.StreamReader, asyncio.StreamWriter]] = []
+    opened: list[asyncio.StreamWriter] = []
+    loop = asyncio.get_running_loop()
+
+    async def ask(due: float, body: str) -> float:
+        while idle and idle[-1][0].at_eof():
+            idle.pop()  # not used for so long that the service closed it
+        if idle:
+            reader, writer = idle.pop()
+        else:
+            reader, writer = await asyncio.open_connection(parts.hostname, parts.port)
+            opened.append(writer)
+        data = body.encode()
+        head = f"POST {parts.path} HTTP/1.1\r\nHost: {parts.netloc}\r\nContent-Type: application/json\r\n"
+        writer.write(f"{head}Content-Length: {len(data)}\r\n\r\n".encode() + data)
+        received = await reader.readuntil(b"\r\n\r\n")
+        assert received.split(b" ", 2)[1] == b"200", received
+        length = re.search(rb"(?i)content-length: (\d+)", received)
+        assert length is not None, received
+        await reader.readexactly(int(length.group(1)))
+        taken = loop.time() - due
+        idle.append((reader, writer))
+        return taken * 1000
+
+    began, tasks = loop.time(), []
+    for number, body in zip(range(int(seconds * rate)), itertools.cycle(sent), strict=False):
+        due = began + number / rate
+        await asyncio.sleep(max(0.0, due - loop.time()))
+        tasks.append(asyncio.create_task(ask(due, body)))
+    taken = await asyncio.gather(*tasks)
+    for writer in opened:
+        writer.close()
+    await asyncio.gather(*(writer.wait_closed() for writer in opened), return_exceptions=True)
+    return taken
+
+
+def measure(request: str, url: str, sent: Sequence[str], empty: str, seconds: float, connections: int) -> Row:
+    """One row; the empty endpoint gets the same bodies."""
+    idle, _ = saturate(f"{empty}/empty", sent, seconds / 2, connections)
+    served, errors = saturate(url, sent, seconds, connections)
+    taken = asyncio.run(paced(url, sent, seconds, served / 2))
+    p99 = statistics.quantiles(taken, n=100)[98]
+    return Row(request, served, idle, errors, statistics.median(taken), p99)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Measure and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0] if __doc__ else None)
+    parser.add_argument("--seconds", type=float, default=20.0, help="of each measurement")
+    parser.add_argument("--connections", type=int, default=16)
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args(arguments)
+    if shutil.which("wrk") is None:
+        sys.exit("wrk is missing (Debian and Ubuntu: apt install wrk)")
+    with serving() as client, empty_endpoint() as empty:
+        cases = [
+            ("/translate", "/translate", bodies(None)),
+            ("/translate in an environment", "/translate", bodies("toys")),
+            ("/policies/{id}/step", *step(client)),
+        ]
+        base = str(client.base_url).rstrip("/")
+        rows = [
+            measure(name, base + path, sent, empty, options.seconds, options.connections) for name, path, sent in cases
+        ]
+    print(f"{os.cpu_count()} cores; Python {platform.python_version()}, {platform.machine()}\n")
+    print("| request | served | empty endpoint | share | errors | median at half load | p99 at half load |")
+    print("|---" * 7 + "|")
+    for row in rows:
+        print(
+            f"| {row.request} | {row.served:.0f}/s | {row.empty:.0f}/s | {row.served / row.empty:.0%} | {row.errors} "
+            f"| {row.half_p50_ms:.1f} ms | {row.half_p99_ms:.1f} ms |"
+        )
+    if options.json:
+        options.json.write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n", encoding="utf-8")
+
+
+def step(client: httpx.Client) -> tuple[str, list[str]]:
+    """A policy's path, and the states of its run."""
+    said = {"text": "Put the cylinder in the box, then put the box in the bedroom", "environment": "toys-4x1-cylinder"}
+    plan = client.post("/plan", json=said, headers={"Prefer": "wait=60"}).raise_for_status().json()
+    observed = [{"state": place["state"], "memory": place["memory"]} for place in plan["trajectory"]]
+    return f"{plan['policy']['url']}/step", [json.dumps(body) for body in observed]
+
+
+if __name__ == "__main__":
+    main()

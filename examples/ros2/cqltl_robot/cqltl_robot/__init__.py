@@ -1,0 +1,1 @@
+"""English commands to actions, by a cqltl service."""

@@ -1,0 +1,46 @@
+"""Requests that Schemathesis makes up from openapi.yaml: no answer is 5xx, and each is as it is documented.
+
+`make schemathesis` does it for ten minutes, or CQLTL_SCHEMATHESIS_S seconds, with requests never seen before.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from benchmarks.server import serving
+
+DOCUMENT = Path(__file__).parents[3] / "openapi.yaml"
+PROGRAM = Path(sys.executable).with_name("schemathesis")
+LEFT_OUT = (
+    "positive_data_acceptance",  # what fits the schema may yet mean nothing: a formula, a name, a world
+    "ignored_auth",
+)
+
+
+def run(folder: Path, *options: str) -> None:
+    """Run it against a server of its own; a failure says which requests it was."""
+    with serving(folder / "store") as client:
+        command = [PROGRAM, "run", DOCUMENT, "--url", str(client.base_url).rstrip("/"), "--no-color"]
+        further = ["--exclude-checks", ",".join(LEFT_OUT), "--suppress-health-check", "all", "--warnings", "off"]
+        said = ["--continue-on-failure", *further, *options]
+        result = subprocess.run([*command, *said], cwd=folder, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout[-20_000:] + result.stderr
+    assert "Tested: 0" not in result.stdout
+
+
+def test_a_short_run(tmp_path: Path) -> None:
+    """The same requests in every run."""
+    run(tmp_path, "--generation-deterministic", "--max-examples", "5")
+
+
+@pytest.mark.long
+def test_a_long_run(tmp_path: Path) -> None:
+    seconds = os.environ.get("CQLTL_SCHEMATHESIS_S", "600")
+    seed = str(random.SystemRandom().randrange(1_000_000))
+    run(tmp_path, "--seed", seed, "--max-examples", "200", "--max-time", seconds)
