@@ -26,7 +26,7 @@ def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 
     with services.store.read() as transaction:
         found = transaction.environments.page(after=cursor, limit=limit + 1)
     page, cursor_after = page_of(found, limit, lambda stored: stored.name)
-    items = [EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in page]
+    items = [EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision, samples=_samples(e)) for e in page]
     return EnvironmentList(items=items, next=cursor_after)
 
 
@@ -112,5 +112,15 @@ def _checked(body: EnvironmentSpec) -> tuple[str, dict[str, Any]]:
 
 def _out(stored: StoredEnvironment) -> EnvironmentOut:
     return EnvironmentOut.model_validate(
-        {"name": stored.name, "kind": stored.kind, "revision": stored.revision, "spec": stored.data}
+        {
+            "name": stored.name,
+            "kind": stored.kind,
+            "revision": stored.revision,
+            "samples": _samples(stored),
+            "spec": stored.data,
+        }
     )
+
+
+def _samples(stored: StoredEnvironment) -> list[str]:
+    return list(stored.data.get("samples", ()))
