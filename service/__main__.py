@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from pydantic import ValidationError
 
@@ -77,6 +78,8 @@ def _parser() -> argparse.ArgumentParser:
     where = plan.add_mutually_exclusive_group(required=True)
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
+    plan.add_argument("--format", choices=["text", "json"], help="text draws the run: the default on a terminal")
+    plan.add_argument("--gif", type=Path, help="also write the run as an animation (needs the extra `gif`)")
 
     add_commands(commands)
     document = _remote(commands.add_parser("openapi", help="print the OpenAPI document"))
@@ -146,7 +149,7 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     body = {
         name: value
         for name, value in vars(options).items()
-        if name not in ("command", "server", "environment_file") and value not in (None, [], False)
+        if name not in ("command", "server", "environment_file", "format", "gif") and value not in (None, [], False)
     }
     if getattr(options, "environment_file", None) is not None:
         body["environment_spec"] = _read_environment(options.environment_file)
@@ -155,8 +158,36 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     except UnreachableError as error:
         print(error, file=sys.stderr)
         return 1
+    if options.command == "plan" and status < 400:
+        return _show(settings, options, body, answer)
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
+
+
+def _show(settings: Settings, options: argparse.Namespace, body: dict[str, Any], answer: Any) -> int:
+    """Print a plan as JSON, or draw its run; and write the animation if one is asked for."""
+    from service.client import UnreachableError, get
+    from service.showing import animate, show, wants_text
+
+    text = wants_text(options.format)
+    if not text:
+        print(json.dumps(answer, indent=2, ensure_ascii=False))
+    if not text and options.gif is None:
+        return 0
+    spec = body.get("environment_spec")
+    if spec is None:
+        try:
+            _, found = get(f"/environments/{quote(options.environment)}", server=options.server, settings=settings)
+        except UnreachableError as error:
+            print(error, file=sys.stderr)
+            return 1
+        spec = found["spec"]
+    if text:
+        print(show(answer, spec))
+    failed = None if options.gif is None else animate(answer, spec, options.gif)
+    if failed:
+        print(failed, file=sys.stderr)
+    return 1 if failed else 0
 
 
 def _export(settings: Settings, options: argparse.Namespace) -> int:
