@@ -18,7 +18,7 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
-from service.http import environments, explanations, health, jobs, language, plans, policies, templates
+from service.http import environments, explanations, health, jobs, language, page, plans, policies, templates
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
@@ -59,8 +59,9 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     install(app)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes)
-    for module in (language, explanations, templates, environments, plans, jobs, policies, health):
+    for module in (language, explanations, templates, environments, plans, jobs, policies, health, page):
         app.include_router(module.router)
+    app.router.routes.append(page.static())
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
     return app
 

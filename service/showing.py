@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ def show(answer: Mapping[str, Any], spec: Mapping[str, Any]) -> str:
     if answer["expected_steps"] is not None:
         lines[-1] += f", expected steps {answer['expected_steps']:.6g}"
     lines += ["", "at first:", to_text(environment, steps[0]["state"]), ""]
-    for number, (one, two) in enumerate(zip(steps, steps[1:], strict=False), start=1):
+    for number, (one, two) in enumerate(pairwise(steps), start=1):
         if number > MOST_STEPS:
             lines.append(f"... and {len(steps) - 1 - MOST_STEPS} more")
             break

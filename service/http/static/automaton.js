@@ -1,0 +1,37 @@
+// The drawn automaton, with the state lit in which the policy's memory is.
+
+import { Problem, request, tellCurl } from "./api.js";
+import { byId, picture, show } from "./dom.js";
+
+/** Draw the automaton of a policy; too large a one is said to be so. */
+export async function showAutomaton(url) {
+  const path = `${url}/automaton?format=svg`;
+  show(byId("automaton-empty"), false);
+  tellCurl(byId("automaton-curl"), "GET", path);
+  try {
+    const svg = picture((await request("GET", path)).body);
+    byId("automaton").replaceChildren(svg);
+  } catch (error) {
+    if (!(error instanceof Problem)) throw error;
+    byId("automaton").replaceChildren(document.createTextNode(error.message));
+  }
+}
+
+/** Light the state after what is true now was read. */
+export function light(memory, status) {
+  for (const state of byId("automaton").querySelectorAll(".state")) {
+    const now = state.dataset.state === String(memory);
+    state.classList.toggle("current", now);
+    if (now) state.setAttribute("aria-current", "step");
+    else state.removeAttribute("aria-current");
+  }
+  const words = { satisfied: ": done, whatever happens next", lost: ": it cannot be done any more", sustaining: ": the task holds as long as the policy goes on" };
+  byId("memory").textContent = `State ${memory}${words[status] ?? ""}`;
+}
+
+export function hideAutomaton() {
+  byId("automaton").replaceChildren();
+  byId("automaton-curl").replaceChildren();
+  byId("memory").textContent = "";
+  show(byId("automaton-empty"));
+}
