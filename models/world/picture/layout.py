@@ -65,6 +65,20 @@ class Layout:
         """How many cells there are from north to south."""
         return 1 + max(y for _, y in self.grid.cells.values())
 
+    @property
+    def region_of(self) -> dict[str, str]:
+        """Cell to region."""
+        return {cell: region for region, cells in self.regions.items() for cell in cells}
+
+    def says(self, cell: str) -> str:
+        """What people call a cell: its own name, else the region with the place on the map."""
+        if cell not in self.generated:
+            return cell.replace("_", " ")
+        column, row = (place + 1 for place in self.grid.cells[cell])
+        region = self.region_of.get(cell)
+        place = f"column {column}, row {row}"
+        return f"{region.replace('_', ' ')} ({place})" if region else place
+
     def walls(self) -> list[Segment]:
         """Edges of the map, and walls between neighbours: x1, y1, x2, y2, each once."""
         found: dict[Segment, None] = {}

@@ -68,8 +68,8 @@ def shown(name: str) -> str:
 
 def _floor(layout: Layout) -> Iterator[Shape]:
     for name, (x, y) in layout.grid.cells.items():
-        yield Rect(CELL * x, CELL * y, CELL, CELL, "cell", data={"cell": name})
-    tinted = {cell: region for region, cells in layout.regions.items() for cell in cells}
+        yield Rect(CELL * x, CELL * y, CELL, CELL, "cell", data={"cell": name, "says": layout.says(name)})
+    tinted = layout.region_of
     few = len(layout.generated) > len(layout.grid.cells) / 3 and not layout.regions
     for name, (x, y) in layout.grid.cells.items():
         fill = color_of(layout.attributes.get(name, {})) or color_of(layout.attributes.get(tinted.get(name, ""), {}))

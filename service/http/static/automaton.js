@@ -11,10 +11,24 @@ export async function showAutomaton(url) {
   try {
     const svg = picture((await request("GET", path)).body);
     byId("automaton").replaceChildren(svg);
+    fit(svg);
   } catch (error) {
     if (!(error instanceof Problem)) throw error;
     byId("automaton").replaceChildren(document.createTextNode(error.message));
   }
+}
+
+/** Without the formula above it, which stands on the page, and as wide as its place, unless nobody could read it then. */
+function fit(svg) {
+  svg.querySelector(":scope > text.name")?.remove();
+  const [ground] = svg.querySelectorAll(":scope > rect");
+  ground?.remove();
+  const { x, y, width, height } = svg.getBBox();
+  svg.setAttribute("viewBox", `${x - 6} ${y - 6} ${width + 12} ${height + 12}`);
+  svg.removeAttribute("width");
+  svg.removeAttribute("height");
+  svg.style.maxWidth = `${width + 12}px`;
+  svg.style.minWidth = `${0.66 * width}px`;
 }
 
 /** Light the state after what is true now was read. */

@@ -56,7 +56,7 @@ async function draw() {
   tellCurl(byId("run-curl"), "GET", path);
   byId("status").textContent = world.drawn ? "" : "This world has no map; its state is listed.";
   byId("move-what").replaceChildren(...world.moving().map((thing) => make("option", { value: thing }, shown(thing))));
-  byId("move-where").replaceChildren(...[...world.cells.keys()].map((cell) => make("option", { value: cell }, shown(cell))));
+  byId("move-where").replaceChildren(...[...world.cells.keys()].map((cell) => make("option", { value: cell }, world.says(cell))));
   show(document.querySelector(".more"), world.drawn);
 }
 
@@ -178,21 +178,13 @@ function showStep(step, number, steps) {
   world.show(step.state);
   world.trail(steps.slice(Math.max(0, number - 60), number + 1).map((passed) => passed.state));
   light(step.memory_after, step.status);
-  const done = before ? `${number}. ${before.action ?? "wait"}: ${changes(before.state, step.state)}.` : "Ready.";
+  const done = before ? `${number}. ${before.action ?? "wait"}: ${world.words(step.state, before.state) || "nothing changes"}.` : "Ready.";
   const next = ENDS[step.status] ?? `Next: ${step.action ?? "wait"}${step.status === "running" ? `, ${step.expected_steps?.toFixed(1)} steps expected` : ", and so on for ever"}.`;
   byId("status").textContent = `${done} ${next}`;
   byId("status").dataset.status = step.status;
   byId("step").disabled = player.over;
   if (player.over) byId("play").textContent = "Play again";
   overlay();
-}
-
-function changes(before, after) {
-  const found = [];
-  for (const [name, attributes] of Object.entries(after))
-    for (const [attribute, value] of Object.entries(attributes))
-      if (before[name][attribute] !== value) found.push(`${shown(name)} ${attribute} ${shown(value)}`);
-  return found.join(", ") || "nothing changes, it slipped";
 }
 
 function showPlaying(playing) {
@@ -241,7 +233,7 @@ async function move(name, cell) {
   const state = world.moved(name, cell);
   const playing = player.now && !player.over;
   const memory = player.now?.memory;
-  const moved = `${sentence(shown(name))} was moved to ${shown(cell)}.`;
+  const moved = `${sentence(shown(name))} was moved to ${world.says(cell)}.`;
   if (!current?.policy) {
     start = state;
     world.show(state);

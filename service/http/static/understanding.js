@@ -74,7 +74,7 @@ function bound(translation) {
 
 /** The other readings, with their confidence. */
 function others(translation) {
-  const rest = translation.candidates.slice(1).filter((candidate) => candidate.contextual_query);
+  const rest = translation.candidates.slice(1).filter((candidate) => candidate.contextual_query && candidate.confidence >= 0.01);
   if (!rest.length) return null;
   const text = rest.map((c) => `${c.contextual_query.text} (${(100 * c.confidence).toFixed(1)} %)`).join(", ");
   return make("p", { class: "note" }, `or, less likely: ${text}`);

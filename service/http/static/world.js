@@ -23,6 +23,7 @@ export class World {
     this.cells = new Map();
     for (const rect of this.svg.querySelectorAll("[data-cell]"))
       this.cells.set(rect.dataset.cell, [Number(rect.getAttribute("x")), Number(rect.getAttribute("y"))]);
+    this.called = new Map([...this.svg.querySelectorAll("[data-cell]")].map((rect) => [rect.dataset.cell, rect.dataset.says]));
     this.things = new Map();
     for (const group of this.svg.querySelectorAll("[data-object]")) this.things.set(group.dataset.object, group);
     this.robot = [...this.things.values()].find((group) => group.dataset.robot)?.dataset.object;
@@ -58,10 +59,16 @@ export class World {
     this.svg.querySelector("title").textContent = this.words(state);
   }
 
-  /** A state in words. */
-  words(state) {
+  /** What people call a cell, a thing or a value. */
+  says(name) {
+    return this.called.get(name) ?? shown(name);
+  }
+
+  /** A state in words; with `before`, only what is not as in that. */
+  words(state, before = {}) {
     return Object.entries(state).flatMap(([name, attributes]) =>
-      Object.entries(attributes).map(([attribute, value]) => `${shown(name)} ${attribute} ${shown(value)}`)).join(", ");
+      Object.entries(attributes).filter(([attribute, value]) => before[name]?.[attribute] !== value)
+        .map(([attribute, value]) => `${shown(name)} ${attribute} ${this.says(value)}`)).join(", ");
   }
 
   /** Where each thing is drawn in a state. */
@@ -181,11 +188,11 @@ export class World {
       const parts = [];
       if (heat !== undefined) {
         const rect = shape("rect", { x: left + 2, y: top + 2, width: CELL - 4, height: CELL - 4, class: "heat" });
-        rect.style.fillOpacity = 0.08 + 0.62 * heat;
+        rect.style.fillOpacity = 0.05 + 0.45 * heat;
         parts.push(rect);
       }
       if (text) parts.push(shape("text", { x: left + 94, y: top + 94, class: "value", "text-anchor": "end" }, text));
-      if (arrow) parts.push(shape("text", { x: left + 88, y: top + 58, class: arrow.length > 1 ? "doing" : "arrow-sign", "text-anchor": arrow.length > 1 ? "end" : "middle" }, arrow));
+      if (arrow) parts.push(shape("text", { x: left + 7, y: top + 94, class: arrow.length > 1 ? "doing" : "arrow-sign" }, arrow));
       return parts;
     }));
   }
