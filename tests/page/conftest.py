@@ -1,4 +1,4 @@
-"""A Chromium that is installed, driven by Playwright, on a server of its own; without either, these tests are skipped."""
+"""An installed Chromium, driven by Playwright, on a server of its own; without either, these tests are skipped."""
 
 from __future__ import annotations
 

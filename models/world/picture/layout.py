@@ -18,7 +18,7 @@ CELL = 100.0
 """Side of a cell."""
 FIXTURE = (67.0, 31.0)
 """In a cell: what always stands there."""
-ROBOT = (30.0, 45.0)
+ROBOT = (28.0, 47.0)
 """In a cell: the robot."""
 FLOOR = 73.0
 """In a cell: the height at which things lie."""

@@ -80,7 +80,8 @@ def _floor(layout: Layout) -> Iterator[Shape]:
     for x1, y1, x2, y2 in layout.walls():
         yield Line([(x1, y1), (x2, y2)], "wall")
     for region, cells in layout.regions.items():
-        x, y = min((layout.grid.cells[cell] for cell in cells), key=lambda place: (place[1], place[0]))
+        free = [cell for cell in cells if cell not in layout.fixtures.values()] or cells
+        x, y = min((layout.grid.cells[cell] for cell in free), key=lambda place: (place[1], place[0]))
         columns = len({layout.grid.cells[cell][0] for cell in cells if layout.grid.cells[cell][1] == y})
         yield Text(CELL * x + 8, CELL * y + 17, shown(region), "name", fitted(shown(region), 12, columns), bold=True)
     for name, (x, y) in layout.grid.cells.items():

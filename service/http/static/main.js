@@ -114,7 +114,7 @@ function ask(question) {
     const answer = { choice, part: question.part, ...(question.argument != null && { argument: question.argument }) };
     const label = question.about === "thing" ? shown(choice) : sentence(says);
     return make("button", { type: "button", onclick: () => say(asked.text, [...asked.answers, answer]) }, label,
-      question.about === "thing" && says !== choice ? make("span", { class: "note" }, says) : null);
+      question.about === "thing" && says !== choice ? make("span", { class: "note" }, says.replace(`${choice}: `, "")) : null);
   });
   byId("choices").replaceChildren(...buttons);
   show(byId("question"));
@@ -142,14 +142,15 @@ async function perform(what, signal) {
     byId("status").textContent = found.outcome === "unsatisfiable" ? "No run at all satisfies the formula." : "No run of this world satisfies the formula from here.";
     return;
   }
-  await showAutomaton(found.policy.url);
-  if (signal.aborted) return;
+  const drawn = showAutomaton(found.policy.url);
   for (const id of ["play", "step", "restart", "values", "arrows"]) byId(id).disabled = false;
   player.seed = 0;
   await player.begin(found.policy.url);
   tellCurl(byId("run-curl"), "POST", `${found.policy.url}/run`, player.body());
   await overlay();
   player.play();
+  await drawn;
+  if (player.now && !signal.aborted) light(player.now.memory_after, player.now.status);
 }
 
 /** The world to plan in: by name, or written out where the slip is another. */

@@ -3,7 +3,7 @@
 
 import { make, picture, shown, still } from "./dom.js";
 
-const CELL = 100, FIXTURE = [67, 31], ROBOT = [30, 45], FLOOR = 73, HELD = [15, -17], SHRUNK = 0.66, DEEPEST = 8;
+const CELL = 100, FIXTURE = [67, 31], ROBOT = [28, 47], FLOOR = 73, HELD = [15, -17], SHRUNK = 0.66, DEEPEST = 8;
 const SVG = "http://www.w3.org/2000/svg";
 
 export class World {
@@ -191,8 +191,9 @@ export class World {
         rect.style.fillOpacity = 0.05 + 0.45 * heat;
         parts.push(rect);
       }
-      if (text) parts.push(shape("text", { x: left + 94, y: top + 94, class: "value", "text-anchor": "end" }, text));
-      if (arrow) parts.push(shape("text", { x: left + 7, y: top + 94, class: arrow.length > 1 ? "doing" : "arrow-sign" }, arrow));
+      if (text) parts.push(shape("text", { x: left + 94, y: top + 15, class: "value", "text-anchor": "end" }, text));
+      if (arrow.length > 1) parts.push(shape("text", { x: left + 95, y: top + 94, class: "doing", "text-anchor": "end" }, arrow));
+      else if (arrow) parts.push(shape("text", { x: left + 7, y: top + 94, class: "arrow-sign" }, arrow));
       return parts;
     }));
   }
