@@ -22,6 +22,8 @@ def test_screenshots(visit: Open, width: int, scheme: str) -> None:
     command(page, SHIP)
     said(page, "3. ")
     page.click("#play")
+    page.wait_for_selector(".automaton .current")
+    page.evaluate("scrollTo({ top: 0, behavior: 'instant' })")
     page.screenshot(path=SCREENSHOTS / f"run-{width}-{scheme}.png", full_page=True)
     page.check("#values")
     page.check("#arrows")

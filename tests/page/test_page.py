@@ -94,6 +94,7 @@ def test_a_long_plan_shows_its_progress_and_is_cancelled(visit: Open, site: http
     command(page, "Patrol between the kitchen and the bedroom")
     page.wait_for_selector("#progress:not([hidden])")
     page.wait_for_function("document.getElementById('progress-text').textContent !== ''")
+    page.locator("#progress").scroll_into_view_if_needed()
     page.screenshot(path=SCREENSHOTS / "progress.png")
     page.get_by_role("button", name="Cancel").click()
     said(page, "Planning was cancelled.")

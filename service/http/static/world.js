@@ -191,9 +191,9 @@ export class World {
         rect.style.fillOpacity = 0.05 + 0.45 * heat;
         parts.push(rect);
       }
-      if (text) parts.push(shape("text", { x: left + 94, y: top + 15, class: "value", "text-anchor": "end" }, text));
-      if (arrow.length > 1) parts.push(shape("text", { x: left + 95, y: top + 94, class: "doing", "text-anchor": "end" }, arrow));
-      else if (arrow) parts.push(shape("text", { x: left + 7, y: top + 94, class: "arrow-sign" }, arrow));
+      if (text) parts.push(shape("text", { x: left + 7, y: top + 62, class: "value" }, text));
+      if (arrow.length > 1) parts.push(shape("text", { x: left + 7, y: top + 92, class: "doing" }, arrow));
+      else if (arrow) parts.push(shape("text", { x: left + 7, y: top + 92, class: "arrow-sign" }, arrow));
       return parts;
     }));
   }
