@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from pydantic import ValidationError
 
@@ -20,6 +21,8 @@ from service.store.engine import is_postgresql
 
 PLAN_OPTIONS = ("objective", "verify", "no_relevance")
 """Arguments of `plan` that are members of the request's `options`."""
+NOT_MEMBERS = ("command", "server", "environment_file", "format", "gif")
+"""Arguments that are no members of a request."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -93,6 +96,8 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("--objective", choices=["max", "min"], help="max (default), or min: the least probability")
     plan.add_argument("--verify", action="store_true", help="also evaluate the policy apart from planning")
     plan.add_argument("--no-relevance", action="store_true", help="plan in the whole world, with what cannot matter")
+    plan.add_argument("--format", choices=["text", "json"], help="text draws the run: the default on a terminal")
+    plan.add_argument("--gif", type=Path, help="also write the run as an animation (needs the extra `gif`)")
 
     add_commands(commands)
     document = _remote(commands.add_parser("openapi", help="print the OpenAPI document"))
@@ -167,7 +172,7 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     body = {
         name: value
         for name, value in vars(options).items()
-        if name not in ("command", "server", "environment_file", *PLAN_OPTIONS) and value not in (None, [], False)
+        if name not in (*NOT_MEMBERS, *PLAN_OPTIONS) and value not in (None, [], False)
     }
     if chosen := _plan_options(options):
         body["options"] = chosen
@@ -178,6 +183,8 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     except UnreachableError as error:
         print(error, file=sys.stderr)
         return 1
+    if options.command == "plan" and status < 400:
+        return _show(settings, options, body, answer)
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
 
@@ -191,6 +198,32 @@ def _plan_options(options: argparse.Namespace) -> dict[str, Any]:
     if whole:
         found["relevance"] = False
     return found
+
+
+def _show(settings: Settings, options: argparse.Namespace, body: dict[str, Any], answer: Any) -> int:
+    """Print a plan as JSON, or draw its run; and write the animation if one is asked for."""
+    from service.client import UnreachableError, get
+    from service.showing import animate, show, wants_text
+
+    text = wants_text(options.format)
+    if not text:
+        print(json.dumps(answer, indent=2, ensure_ascii=False))
+    if not text and options.gif is None:
+        return 0
+    spec = body.get("environment_spec")
+    if spec is None:
+        try:
+            _, found = get(f"/environments/{quote(options.environment)}", server=options.server, settings=settings)
+        except UnreachableError as error:
+            print(error, file=sys.stderr)
+            return 1
+        spec = found["spec"]
+    if text:
+        print(show(answer, spec))
+    failed = None if options.gif is None else animate(answer, spec, options.gif)
+    if failed:
+        print(failed, file=sys.stderr)
+    return 1 if failed else 0
 
 
 def _export(settings: Settings, options: argparse.Namespace) -> int:

@@ -19,7 +19,7 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
-from service.http import environments, explanations, health, jobs, language, plans, policies, templates
+from service.http import environments, explanations, health, jobs, language, page, plans, policies, templates
 from service.http.gate import Gate, cors
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
@@ -72,8 +72,9 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     )
     if settings.allowed_origins:
         app.add_middleware(CORSMiddleware, **cors(settings.allowed_origins))
-    for module in (language, explanations, templates, environments, plans, jobs, policies, health):
+    for module in (language, explanations, templates, environments, plans, jobs, policies, health, page):
         app.include_router(module.router)
+    app.router.routes.append(page.static())
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
     return app
 

@@ -13,7 +13,7 @@ CqltlError
 ├── NotUnderstoodError         no stored task fits the command to plan
 ├── AmbiguousCommandError      the command to plan leaves a question open
 ├── AnswerError                an answer is not one to the question that is asked
-├── DrawingTooLargeError       the automaton has too many states to be drawn
+├── DrawingTooLargeError       an automaton or a world has too much in it to be drawn
 ├── OutOfTimeError             a budget of time was spent
 ├── OutOfMemoryError           the work needs more memory than a process may have
 ├── WorkerDiedError            the process that did the work died
@@ -114,7 +114,7 @@ class AnswerError(CqltlError):
 
 
 class DrawingTooLargeError(CqltlError):
-    """The automaton has too many states for a picture."""
+    """An automaton has too many states for a picture, or a world too many cells or things."""
 
     slug = "drawing-too-large"
 

@@ -20,13 +20,19 @@ TAUGHT = "seeds know what they were taught with"
 """Noted when the templates have the kinds of what they were learned with; stores of before 0.2 have not."""
 READ = "seeds are read in English"
 """Noted when the templates have their readings; stores of before 0.3 have not."""
+WORLDS = "worlds have samples"
+"""Noted when the store was given the worlds of 0.3, and sample commands; stores of before have not."""
+NEW = ("city", "house", "warehouse")
+"""The worlds that came with 0.3. What else a store lacks of the built-in ones was deleted."""
 
 
 async def seed(services: Services) -> None:
     """Give a new store its built-in data; interrupted, it is taken up again at the next start."""
     with services.store.read() as transaction:
-        seeded, *complete = (transaction.fact(fact) is not None for fact in (FACT, TAUGHT, READ))
+        seeded, worlds, *complete = (transaction.fact(fact) is not None for fact in (FACT, WORLDS, TAUGHT, READ))
     if seeded:
+        if not worlds:
+            _add_worlds(services)
         if not all(complete):
             await _complete(services)
         return
@@ -36,9 +42,20 @@ async def seed(services: Services) -> None:
     for pair in _read()["templates"]:
         await learn_template(services, Lesson(pair["contextual_query"], pair["ltl"], pair["environment"], replace=True))
     with services.store.write() as transaction:
-        for fact in (FACT, TAUGHT, READ):
+        for fact in (FACT, TAUGHT, READ, WORLDS):
             if transaction.fact(fact) is None:
                 transaction.add_fact(fact, "1")
+
+
+def _add_worlds(services: Services) -> None:
+    """Store the new worlds, and the samples of those that are as they were."""
+    with services.store.write() as transaction:
+        for name, data in builtin_environments():
+            known = transaction.environments.find(name)
+            plain = {member: value for member, value in data.items() if member not in ("samples", "lessons")}
+            if (known is None and name in NEW) or (known is not None and known.data == plain):
+                transaction.environments.put(name, data["kind"], data)
+        transaction.add_fact(WORLDS, "1")
 
 
 async def _complete(services: Services) -> None:

@@ -73,6 +73,10 @@ class Services:
             text = transaction.environments.text(name)
         return self._parsed(text)
 
+    def parsed(self, text: str) -> LoadedEnvironment:
+        """An environment of its data as JSON text."""
+        return self._parsed(text)
+
     def known(self) -> Taught:
         """The templates and the examples of now."""
         with self.store.read() as transaction:

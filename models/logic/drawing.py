@@ -257,7 +257,7 @@ def _circle(diagram: Diagram, state: int, box: _Box) -> str:
             f' {x + 20:.1f} {high:.1f} {x + 9:.1f} {y + 2:.1f}"/>'
         )
         parts.append(_label(box, y - LOOP + 2 - LINE * len(box.lines)))
-    return "\n".join(parts)
+    return "\n".join([f'<g class="state" data-state="{state}">', *parts, "</g>"])
 
 
 def _label(box: _Box, top: float) -> str:

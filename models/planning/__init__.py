@@ -17,6 +17,7 @@ from models.planning.options import Options, Progress
 from models.planning.planner import Plan, Sizes, plan
 from models.planning.policy import INVALID, NOTHING, WAIT, Policy, Step
 from models.planning.policy_data import from_bytes, to_bytes, to_json
+from models.planning.running import RunStep, likeliest_run, run
 from models.planning.simulation import Simulation, simulate
 from models.planning.trajectory import Trajectory, TrajectoryStep
 
@@ -33,6 +34,7 @@ __all__ = [
     "Plan",
     "Policy",
     "Progress",
+    "RunStep",
     "Simulation",
     "Sizes",
     "Step",
@@ -41,7 +43,9 @@ __all__ = [
     "UncheckableError",
     "check",
     "from_bytes",
+    "likeliest_run",
     "plan",
+    "run",
     "simulate",
     "to_bytes",
     "to_json",

@@ -66,14 +66,14 @@ def simulate(
         active, action = active[~ended], action[~ended]
         if not len(active) or done == max_steps:
             break
-        state[active] = _enter(world, state[active], action, generator.random(len(active)))
+        state[active] = enter(world, state[active], action, generator.random(len(active)))
     return Simulation(satisfied, decided, steps)
 
 
-def _enter(
+def enter(
     world: World, state: NDArray[np.int64], action: NDArray[np.int64], chance: NDArray[np.float64]
 ) -> NDArray[np.int64]:
-    """The successor of each run; `chance` is uniform in [0, 1). Without an action the state stays."""
+    """The state that each run enters; `chance` is uniform in [0, 1). Without an action the state stays."""
     entered = state.copy()
     for number in np.unique(action[action >= 0]):
         chosen = np.flatnonzero(action == number)

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from models.world.domain import Function
+from models.world.grid import Grid
+from models.world.oomdp import OomdpWorld
 from models.world.situation import Situation
 from models.world.vocabulary import Symbol, Vocabulary
 from models.world.world import State, World
@@ -28,6 +30,11 @@ class Environment:
     def functions(self) -> Mapping[str, Function]:
         """The propositional functions by name."""
         return self.vocabulary.functions
+
+    @property
+    def grid(self) -> Grid | None:
+        """Where the cells are; None where they were not drawn as a map."""
+        return self.world.model.grid if isinstance(self.world, OomdpWorld) else None
 
     @cached_property
     def situation(self) -> Situation:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from models.world.domain import Domain
 from models.world.domain_reader import read_values
-from models.world.grid import read_grid
+from models.world.grid import Grid, read_grid
 from models.world.limits import MAX_OBJECTS, MAX_SYNONYMS, MAX_VALUES, MAX_VARIABLES
 from models.world.model import Model, StateAttribute
 from models.world.name_faults import environment_name_fault, name_fault
@@ -34,6 +34,7 @@ class _Reader:
     values: tuple[Symbol, ...] = ()
     members: dict[str, list[Symbol]] = field(default_factory=dict)
     static: dict[Symbol, dict[str, Symbol]] = field(default_factory=dict)
+    grid: Grid | None = None
 
     def read(self) -> tuple[Model, Vocabulary] | None:
         if fault := environment_name_fault(self.spec.name):
@@ -59,6 +60,7 @@ class _Reader:
             self.static,
             variables,
             tuple(initial),
+            self.grid,
         )
         return model, self._vocabulary()
 
@@ -111,7 +113,7 @@ class _Reader:
         missing = [d for d in _COMPASS if grid.class_ not in declared.static.get(d, ())]
         if missing:
             self.report.add(["grid", "class"], f"{grid.class_} needs static {listing(missing, 'and')}: {grid.class_}")
-        read = read_grid(grid, self.report)
+        self.grid = read = read_grid(grid, self.report)
         for name in read.cells:
             if name in self.objects:
                 self.report.add(["grid"], f"{name} is an object of the domain already")

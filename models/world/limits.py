@@ -7,7 +7,7 @@ from typing import Final
 MAX_NAME: Final = 100
 """Characters in a name of anything."""
 MAX_TEXT: Final = 1_000
-"""Characters in one expression, reading or display pattern."""
+"""Characters in one expression, reading, display pattern or sample."""
 MAX_TEXTS: Final = 200_000
 """Characters in all expressions of a domain together."""
 MAX_NESTING: Final = 40
@@ -22,6 +22,8 @@ MAX_OBJECTS: Final = 5_000
 """Objects of one environment, the grid's cells included."""
 MAX_VALUES: Final = 5_000
 """Attribute values of one environment."""
+MAX_SAMPLES: Final = 20
+"""Sample commands of an environment, and sample lessons."""
 MAX_SYNONYMS: Final = 50
 """Synonyms of one object, words of one class, display patterns of one function."""
 MAX_VARIABLES: Final = 2_000

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from models.world.domain import Domain
+from models.world.grid import Grid
 from models.world.vocabulary import Symbol
 
 
@@ -30,3 +31,4 @@ class Model:
     static: Mapping[Symbol, Mapping[str, Symbol]]
     variables: tuple[StateAttribute, ...]
     initial: tuple[int, ...]  # a digit for each variable
+    grid: Grid | None = None  # where the cells are, if they were drawn as a map

@@ -12,7 +12,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, model_validator
 
-from models.world.limits import MAX_EXPLICIT_STATES
+from models.world.limits import MAX_EXPLICIT_STATES, MAX_SAMPLES, MAX_TEXT
 
 
 class _Spec(BaseModel):
@@ -148,6 +148,17 @@ class GridSpec(_Spec):
     walls: list[list[str]] = Field(default_factory=list, description="Pairs of neighbouring cells with a wall between.")
 
 
+_Sample = Annotated[str, Field(min_length=1, max_length=MAX_TEXT)]
+
+
+class LessonSpec(_Spec):
+    """A task to teach in this world, for whoever tries it: what a `/learn` request needs."""
+
+    text: _Sample = Field(description="An utterance of the task.")
+    contextual_query: _Sample = Field(description="The query that it stands for.")
+    ltl: _Sample = Field(description="What that means here: grounded LTL.")
+
+
 class OomdpSpec(_Spec):
     """An environment of an object-oriented MDP domain: exactly one of `domain` and `domain_spec`."""
 
@@ -163,6 +174,14 @@ class OomdpSpec(_Spec):
     objects: dict[str, ObjectSpec] = Field(default_factory=dict, description="Objects by name.")
     state: dict[str, dict[str, str]] = Field(
         default_factory=dict, description="Initial state: object to state attribute to value."
+    )
+    samples: list[_Sample] = Field(
+        default_factory=list,
+        max_length=MAX_SAMPLES,
+        description="Commands to try here, for people. Nothing reads them.",
+    )
+    lessons: list[LessonSpec] = Field(
+        default_factory=list, max_length=MAX_SAMPLES, description="Tasks to teach here, for people. Nothing reads them."
     )
 
     @model_validator(mode="after")

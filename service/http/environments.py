@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from anyio.to_thread import run_sync
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Query, Response
+from pydantic import TypeAdapter, ValidationError
 
 from models.errors import Place
-from models.world import EnvironmentSpec, WorldError, load_environment
+from models.world import EnvironmentSpec, State, StateError, WorldError, load_environment
+from service.acting import world_image
 from service.errors import EnvironmentExistsError
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.idempotency import SLUGS, AnsweredMeanwhile, KeyHeader, keeping, kept_response, once_of
 from service.http.schemas import EnvironmentList, EnvironmentOut, EnvironmentSummary
 from service.http.views import environment_data, location
+from service.places import at
 from service.services import Services
 from service.store import Once, StoredEnvironment
 
 router = APIRouter(prefix="/environments", tags=["environments"])
+
+SVG = "image/svg+xml"
+STATE = TypeAdapter(dict[str, dict[str, str]])
 
 
 @router.get("", operation_id="listEnvironments", responses=refusals("validation"))
@@ -26,7 +32,7 @@ def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 
     with services.store.read() as transaction:
         found = transaction.environments.page(after=cursor, limit=limit + 1)
     page, cursor_after = page_of(found, limit, lambda stored: stored.name)
-    items = [EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision) for e in page]
+    items = [EnvironmentSummary(name=e.name, kind=e.kind, revision=e.revision, samples=_samples(e)) for e in page]
     return EnvironmentList(items=items, next=cursor_after)
 
 
@@ -59,6 +65,32 @@ def get_environment(name: str, services: ServicesDep) -> EnvironmentOut:
     """A stored environment."""
     with services.store.read() as transaction:
         return _out(transaction.environments.get(name))
+
+
+@router.get(
+    "/{name}/image",
+    operation_id="getEnvironmentImage",
+    response_class=Response,
+    responses={
+        200: {"content": {SVG: {"schema": {"type": "string"}}}, "description": "A picture that needs nothing else."},
+        **refusals("unknown-environment", "validation", "invalid-state", "drawing-too-large"),
+    },
+)
+def get_environment_image(
+    name: str,
+    services: ServicesDep,
+    state: Annotated[
+        str | None,
+        Query(
+            max_length=100_000,
+            description='A state as JSON, such as `{"robot": {"at": "kitchen"}}`; what is left out is as in the '
+            "initial state.",
+        ),
+    ] = None,
+) -> Response:
+    """The world drawn as SVG: cells, walls, and what is where. Without a map it is listed."""
+    found = services.environment(name).value
+    return Response(world_image(found, None if state is None else _state_of(state)), media_type=SVG)
 
 
 @router.put(
@@ -110,7 +142,26 @@ def _checked(body: EnvironmentSpec) -> tuple[str, dict[str, Any]]:
     return body.name, data
 
 
+def _state_of(text: str) -> State:
+    try:
+        return STATE.validate_json(text)
+    except ValidationError as error:
+        detail = f"the state is not JSON of the form object to attribute to value: {error.errors()[0]['msg']}"
+        with at("/query/state"):
+            raise StateError(detail) from None
+
+
 def _out(stored: StoredEnvironment) -> EnvironmentOut:
     return EnvironmentOut.model_validate(
-        {"name": stored.name, "kind": stored.kind, "revision": stored.revision, "spec": stored.data}
+        {
+            "name": stored.name,
+            "kind": stored.kind,
+            "revision": stored.revision,
+            "samples": _samples(stored),
+            "spec": stored.data,
+        }
     )
+
+
+def _samples(stored: StoredEnvironment) -> list[str]:
+    return list(stored.data.get("samples", ()))

@@ -36,7 +36,7 @@ def document_links(document: dict[str, Any]) -> None:
             for status, response in operation["responses"].items():
                 links = _LINKS.get((operation["operationId"], status))
                 if links:
-                    response["links"] = {name: _link(name, *rest) for name, *rest in links}
+                    response["links"] = {name: _link(name, parameters, body) for name, parameters, body in links}
 
 
 def _link(operation: str, parameters: dict[str, str], body: dict[str, str] | None) -> dict[str, Any]:

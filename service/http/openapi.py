@@ -22,7 +22,7 @@ _STATE = {
     "type": "object",
     "additionalProperties": {"type": "object", "additionalProperties": {"type": "string"}},
 }
-_NAMED = {
+_NAMED: dict[str, tuple[str, dict[str, Any]]] = {
     "EnvironmentSpec": ("A world: an object-oriented MDP, or one listed state by state.", _ENVIRONMENT),
     "State": ("What is observed: object to attribute to value.", _STATE),
 }

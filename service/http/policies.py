@@ -9,12 +9,15 @@ from typing import Annotated
 
 from fastapi import APIRouter, Header, Query, Response
 
-from service.acting import AutomatonFormat, automaton, simulate
+from service.acting import AutomatonFormat, automaton, image, run, simulate
 from service.http.dependencies import BODY, Cursor, Limit, ServicesDep, page_of, refusals
 from service.http.schemas import (
     PolicyList,
     PolicyOut,
     PolicyRow,
+    RunRequest,
+    RunResponse,
+    RunStepOut,
     SimulateRequest,
     SimulateResponse,
     StepCounts,
@@ -105,6 +108,29 @@ async def get_policy_automaton(
     return Response(await automaton(services, policy_id, format), media_type=MEDIA_TYPES[format])
 
 
+@router.get(
+    "/{policy_id}/image",
+    operation_id="getPolicyImage",
+    response_class=Response,
+    responses={
+        200: {
+            "content": {MEDIA_TYPES["svg"]: {"schema": {"type": "string"}}},
+            "description": "A picture that needs nothing else.",
+        },
+        **refusals("unknown-policy", "validation", "drawing-too-large", "out-of-time", "overloaded", "spot-missing"),
+    },
+)
+async def get_policy_image(
+    policy_id: str,
+    services: ServicesDep,
+    step: Annotated[
+        int | None, Query(ge=0, description="Draw things as they are at this step of the run; by default at its end.")
+    ] = None,
+) -> Response:
+    """The most probable run of a policy, drawn as SVG in the world that it was planned in."""
+    return Response(await image(services, policy_id, step=step), media_type=MEDIA_TYPES["svg"])
+
+
 @router.post(
     "/{policy_id}/step",
     operation_id="stepPolicy",
@@ -145,3 +171,28 @@ async def post_simulate(policy_id: str, body: SimulateRequest, services: Service
         mean_steps=found.mean_steps,
         steps=StepCounts(histogram=[list(bar) for bar in found.steps]),
     )
+
+
+@router.post(
+    "/{policy_id}/run",
+    operation_id="runPolicy",
+    responses=refusals(*BODY, "unknown-policy", "invalid-state", "invalid-memory", "out-of-time", "overloaded"),
+)
+async def post_run(policy_id: str, body: RunRequest, services: ServicesDep) -> RunResponse:
+    """One run of the policy, step by step, in the world that it was planned in: to be looked at, or replayed."""
+    found = await run(
+        services, policy_id, seed=body.seed, max_steps=body.max_steps, state=body.state, memory=body.memory
+    )
+    steps = [
+        RunStepOut(
+            state={name: dict(attributes) for name, attributes in moment.state.items()},
+            memory=moment.memory,
+            memory_after=moment.memory_after,
+            action=moment.action,
+            probability=moment.probability,
+            expected_steps=moment.expected_steps if math.isfinite(moment.expected_steps) else None,
+            status=moment.status,
+        )
+        for moment in found
+    ]
+    return RunResponse(seed=body.seed, status=steps[-1].status, steps=steps)

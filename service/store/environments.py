@@ -33,10 +33,15 @@ class EnvironmentRepository:
 
     def get(self, name: str) -> StoredEnvironment:
         """The environment; raises `UnknownEnvironmentError`."""
-        row = self._connection.execute(select(environments).where(environments.c.name == name)).first()
-        if row is None:
+        found = self.find(name)
+        if found is None:
             raise _unknown(name)
-        return StoredEnvironment(row.name, row.kind, row.data, row.revision)
+        return found
+
+    def find(self, name: str) -> StoredEnvironment | None:
+        """The environment, or None."""
+        row = self._connection.execute(select(environments).where(environments.c.name == name)).first()
+        return None if row is None else StoredEnvironment(row.name, row.kind, row.data, row.revision)
 
     def text(self, name: str) -> str:
         """The data of the environment as JSON text; raises `UnknownEnvironmentError`."""

@@ -17,6 +17,7 @@ from service.worker.jobs import (
 )
 from service.worker.pool import Workers
 from service.worker.progress import Progress
+from service.worker.running import PictureJob, RunJob, RunMoment, run_picture, run_run
 from service.worker.simulation import SimulationAnswer, SimulationJob, run_simulation
 
 __all__ = [
@@ -26,17 +27,22 @@ __all__ = [
     "DrawingJob",
     "DrawnFormat",
     "Objective",
+    "PictureJob",
     "PlanAnswer",
     "PlanJob",
     "Progress",
     "ReviewJob",
+    "RunJob",
+    "RunMoment",
     "SimulationAnswer",
     "SimulationJob",
     "Verified",
     "Workers",
     "run_classification",
     "run_drawing",
+    "run_picture",
     "run_plan",
     "run_review",
+    "run_run",
     "run_simulation",
 ]

@@ -58,6 +58,26 @@ def test_the_first_tasks_of_an_older_store_get_their_readings(tmp_path: Path) ->
         assert client.get("/templates/pickup").status_code == 404
 
 
+def test_an_older_store_gets_the_new_worlds_and_samples_but_keeps_its_own(tmp_path: Path) -> None:
+    with serving(tmp_path) as client:
+        spec = {name: client.get(f"/environments/{name}").json()["spec"] for name in ("toys", "navigation")}
+        plain = {
+            name: {k: v for k, v in data.items() if k not in ("samples", "lessons")} for name, data in spec.items()
+        }
+        client.put("/environments/toys", json=plain["toys"])
+        client.put("/environments/navigation", json={**plain["navigation"], "parameters": {"slip": 0.5}})
+        for name in ("city", "house", "warehouse", "toys-4x1-sphere"):
+            assert client.delete(f"/environments/{name}").status_code == 204
+    with sqlite3.connect(tmp_path / "cqltl.sqlite3") as store:
+        store.execute("DELETE FROM facts WHERE name = 'worlds have samples'")
+    store.close()
+    with serving(tmp_path) as client:
+        listed = {item["name"]: item["samples"] for item in client.get("/environments").json()["items"]}
+        assert set(listed) == {"city", "house", "warehouse", "toys", "toys-4x1-cylinder", "navigation"}
+        assert client.get("/environments/toys").json()["spec"] == spec["toys"]
+        assert listed["navigation"] == [], "it was changed, so it stays as it is"
+
+
 def test_two_servers_share_a_store(tmp_path: Path) -> None:
     """Both start on an empty folder at once; what one learns, the other knows at once."""
     with started(tmp_path) as one, started(tmp_path) as two:

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from models.logic.formula import Atom, Name
@@ -12,9 +13,18 @@ BUILTIN = dict(builtin_environments())
 
 
 def test_the_environments_of_a_new_service():
-    assert sorted(BUILTIN) == ["navigation", "toys", "toys-4x1-cylinder", "toys-4x1-sphere"]
+    assert sorted(BUILTIN) == [
+        "city",
+        "house",
+        "navigation",
+        "toys",
+        "toys-4x1-cylinder",
+        "toys-4x1-sphere",
+        "warehouse",
+    ]
     sizes = {name: compile_world(load_environment(data)).size for name, data in BUILTIN.items()}
     assert sizes["toys"] == 4 * 5 * 6**4
+    assert (sizes["house"], sizes["warehouse"]) == (20 * 21 * 22**2 * 2**2, 24 * 25 * 29**2)
     assert sizes["toys-4x1-cylinder"] == sizes["toys-4x1-sphere"] == 4 * 5 * 6
     landmarks = [s for s in load_environment(BUILTIN["navigation"]).symbols("place") if "_" not in s.name]
     assert len(landmarks) >= 12
@@ -23,17 +33,16 @@ def test_the_environments_of_a_new_service():
 @pytest.mark.parametrize("name", BUILTIN)
 def test_every_place_can_be_reached(name):
     world = compile_world(load_environment(BUILTIN[name]))
-    seen, frontier = {world.initial}, [world.initial]
-    everything = [world.outcomes(action) for action in range(len(world.actions))]
-    while frontier:
-        state = frontier.pop()
-        targets = {int(o.successor[k, state]) for o in everything for k in range(len(o.probability))}
-        frontier += targets - seen
-        seen |= targets
-    reached = {world.decode(state)["robot"]["at"] for state in seen} if world.size < 200 else None
+    seen, frontier = np.zeros(world.size, dtype=bool), np.array([world.initial])
+    while len(frontier):
+        seen[frontier] = True
+        targets = [world.outcomes(action, frontier).successor.ravel() for action in range(len(world.actions))]
+        entered = np.unique(np.concatenate(targets))
+        frontier = entered[~seen[entered]]
+    reached = {world.decode(state)["robot"]["at"] for state in np.flatnonzero(seen)} if world.size < 200 else None
     robot = next(v for v in world.variables if v.object == "robot")
     assert reached is None or reached == set(robot.values)
-    assert len(seen) == world.valid().sum(), "every legal state can be reached"
+    assert (seen == world.valid()).all(), "every legal state can be reached"
 
 
 @pytest.mark.parametrize("name", BUILTIN)

@@ -13,6 +13,7 @@ class EnvironmentSummary(BaseModel):
     name: str
     kind: str
     revision: int
+    samples: list[str] = Field(description="Commands to try there.")
 
 
 class EnvironmentOut(EnvironmentSummary):

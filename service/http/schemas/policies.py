@@ -152,3 +152,36 @@ class SimulateResponse(BaseModel):
     success_rate: float = Field(description="The share of `satisfied`.")
     mean_steps: float
     steps: StepCounts
+
+
+class RunRequest(Request):
+    """Where one run of a policy begins, and how long it may be."""
+
+    seed: int = Field(0, ge=0, le=2**63 - 1, description="Decides what happens by chance: equal requests, equal runs.")
+    max_steps: int = Field(200, ge=1, le=1_000, description="Most actions.")
+    state: State | None = Field(
+        None, description="Where the run begins; what is left out is as where the policy's plan began."
+    )
+    memory: int | None = Field(
+        None, ge=0, description="The memory to begin with: to go on from a step, its own. By default the plan's first."
+    )
+
+
+class RunStepOut(BaseModel):
+    """A step of a run: what `POST /policies/{id}/step` says in that state with that memory."""
+
+    state: State
+    memory: int = Field(description="Before what is true in the state was read.")
+    memory_after: int = Field(description="After that: the automaton's state.")
+    action: str | None
+    probability: float = Field(description="Of satisfying the policy's formula from here.")
+    expected_steps: float | None = Field(description="Until the status is another than `running`.")
+    status: Literal["running", "sustaining", "satisfied", "lost"]
+
+
+class RunResponse(BaseModel):
+    """One run, from its first state to where it is `satisfied` or `lost`, or cut off at `max_steps`."""
+
+    seed: int
+    status: Literal["running", "sustaining", "satisfied", "lost"] = Field(description="That of the last step.")
+    steps: list[RunStepOut]

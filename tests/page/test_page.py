@@ -1,0 +1,228 @@
+"""What a visitor does on the page, in a browser."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+from xml.etree import ElementTree
+
+import httpx
+import pytest
+
+from tests.page.conftest import SCREENSHOTS, Open, command, faster, said
+
+SHIP = "Put the towel in the basket, then put the basket in the bathroom"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def test_a_command_is_understood_planned_and_done(visit: Open) -> None:
+    page = visit()
+    faster(page)
+    command(page, SHIP)
+    said(page, "Done: the task holds")
+    steps = page.locator("#steps > li")
+    assert steps.count() == 5
+    assert [steps.nth(n).locator("h3").inner_text() for n in range(5)] == [
+        "Sentence",
+        "Query",
+        "Template",
+        "Formula",
+        "In English",
+    ]
+    assert [re.sub(r"\d", "", text) for text in page.locator("mark").all_inner_texts()] == [
+        "towel",
+        "basket",
+        "bathroom",
+    ]
+    assert "ship(towel, basket, bathroom)" in steps.nth(1).inner_text()
+    assert "F (in($1, $2) & F (in($1, $2) & at($2, $3)))" in steps.nth(2).inner_text()
+    assert "F (in(towel, basket)" in steps.nth(3).inner_text()
+    assert page.locator(".automaton .state.current").count() == 1
+    assert "satisfied" in page.locator(".automaton .state.current").text_content()
+    assert "100 %" in page.locator("#promise").inner_text()
+
+
+def test_every_step_shows_a_curl_command_that_does_the_same(visit: Open, site: httpx.Client) -> None:
+    page = visit()
+    command(page, SHIP)
+    page.wait_for_selector("#play:not([disabled])")
+    blocks = [block.text_content() for block in page.locator("main .curl pre").all()]
+    assert len(blocks) >= 8  # five steps, the plan, the automaton, the run
+    for block in blocks:
+        body = re.search(r"--json '(.*)'", block)
+        path = re.search(r"'http://[^/]+(/.*)'$", block)[1]  # type: ignore[index]  # it is there
+        answer = site.post(path, json=json.loads(body[1].replace("'\\''", "'"))) if body else site.get(path)
+        assert answer.status_code == 200, block
+
+
+def test_a_question_is_answered_by_a_button(visit: Open) -> None:
+    page = visit("toys")
+    faster(page)
+    command(page, "Pick up a toy")
+    page.wait_for_selector("#question:not([hidden])")
+    assert page.locator("#question-text").inner_text() == "Which toy?"
+    assert page.evaluate("document.activeElement.closest('#choices') !== null")
+    page.get_by_role("button", name="bag").click()
+    said(page, "Done: the task holds")
+    assert "F holding(bag)" in page.locator("#steps").inner_text()
+    assert page.locator("#question").is_hidden()
+
+
+def test_a_task_is_taught_and_used_on_something_else(visit: Open) -> None:
+    page = visit()
+    faster(page)
+    page.fill("#teach-text", "Flick on the oven")
+    page.fill("#teach-query", "flick_on(oven)")
+    page.fill("#teach-ltl", "F running(oven")
+    page.get_by_role("button", name="Teach", exact=True).click()
+    page.wait_for_selector("#teach-ltl-problem:not([hidden])")
+    page.fill("#teach-ltl", "F running(oven)")
+    page.get_by_role("button", name="Teach", exact=True).click()
+    page.wait_for_selector("#taught button")
+    assert "F running($1)" in page.locator("#taught").inner_text()
+    assert page.locator("#teach-ltl-problem").is_hidden()
+    command(page, "Flick on the washing machine")
+    said(page, "Done: the task holds")
+    status = page.locator("[data-object=washing_machine] [data-part=status]")
+    assert status.text_content() == "on"
+    assert page.locator("[data-object=oven] [data-part=status]").text_content() == "off"
+
+
+def test_a_long_plan_shows_its_progress_and_is_cancelled(visit: Open, site: httpx.Client) -> None:
+    page = visit()
+    command(page, "Patrol between the kitchen and the bedroom")
+    page.wait_for_selector("#progress:not([hidden])")
+    page.wait_for_function("document.getElementById('progress-text').textContent !== ''")
+    page.locator("#progress").scroll_into_view_if_needed()
+    page.screenshot(path=SCREENSHOTS / "progress.png")
+    page.get_by_role("button", name="Cancel").click()
+    said(page, "Planning was cancelled.")
+    assert page.locator("#progress").is_hidden()
+    assert site.get("/jobs").json()["items"][0]["state"] == "cancelled"
+
+
+def test_the_robot_is_dragged_in_the_middle_of_a_run_and_carries_on(visit: Open) -> None:
+    page = visit()
+    command(page, SHIP)
+    said(page, "1. ")
+    page.click("#play")
+    drag(page, "robot", "spot_5_1")
+    said(page, "Robot was moved to living room (column 5, row 1). The policy carries on.")
+    faster(page)
+    said(page, "Done: the task holds")
+
+
+def test_an_object_is_moved_by_keyboard_in_the_middle_of_a_run(visit: Open) -> None:
+    page = visit()
+    command(page, SHIP)
+    said(page, "1. ")
+    page.click("#play")
+    page.focus(".more summary")
+    page.keyboard.press("Enter")
+    page.select_option("#move-what", "towel")
+    page.select_option("#move-where", "spot_5_1")
+    page.focus("#move button")
+    page.keyboard.press("Enter")
+    said(page, "Towel was moved to living room (column 5, row 1). The policy carries on.")
+    faster(page)
+    said(page, "Done: the task holds")
+
+
+def test_what_the_plan_did_not_cover_is_planned_anew(visit: Open) -> None:
+    page = visit("toys")
+    command(page, "Go to the bedroom or the bathroom")
+    page.wait_for_selector("#play:not([disabled])")
+    drag(page, "robot", "living_room")
+    said(page, "Robot was moved to living room.")
+
+
+def test_things_moved_before_anything_is_planned_are_where_plans_begin(visit: Open) -> None:
+    page = visit("toys")
+    drag(page, "sphere", "kitchen")
+    said(page, "Plans begin from here.")
+    command(page, "Pickup the sphere")
+    said(page, "Next: pick(sphere)")
+
+
+def test_slip_is_changed_by_a_slider(visit: Open) -> None:
+    page = visit("toys")
+    command(page, "Pickup the sphere")
+    page.wait_for_selector("#promise:not([hidden])")
+    before = page.locator("#promise").inner_text()
+    page.evaluate(
+        "() => { const s = document.getElementById('slip'); s.value = 0.4;"
+        " s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); }"
+    )
+    page.wait_for_function(
+        "before => { const p = document.getElementById('promise'); return !p.hidden && p.innerText !== before; }",
+        arg=before,
+    )
+    assert page.locator("#slip-value").inner_text() == "40 %"
+    steps = [
+        float(re.search(r"Expected steps\n([\d.]+)", text)[1])
+        for text in (before, page.locator("#promise").inner_text())
+    ]  # type: ignore[index]
+    assert steps[1] > steps[0]
+
+
+def test_values_and_arrows_are_those_of_the_policy(visit: Open, site: httpx.Client) -> None:
+    page = visit("toys-4x1-sphere")
+    command(page, "Pickup the sphere")
+    page.wait_for_selector("#values:not([disabled])")
+    page.click("#restart")
+    page.check("#values")
+    page.check("#arrows")
+    page.wait_for_selector(".arrow-sign")
+    assert page.locator(".arrow-sign").all_text_contents() == ["→", "→", "→"]
+    assert page.locator(".doing").all_text_contents() == ["pick"]
+    assert page.locator(".value").all_text_contents() == ["4.0", "3.0", "2.0", "1.0"]
+
+
+def test_refusals_are_said_where_they_belong(visit: Open) -> None:
+    page = visit()
+    command(page, "Sing me a song about the sea")
+    page.wait_for_selector("#command-problem:not([hidden])")
+    assert "No known task fits" in page.locator("#command-problem").inner_text()
+
+
+SPOTS = """async ([svg, state]) => {
+    const { World } = await import('/static/world.js');
+    const world = new World(document.createElement('div'), { onmove: {} });
+    world.load(svg, state);
+    return Object.fromEntries([...world.spots(state)].map(([name, spot]) => [name, [spot.x, spot.y, spot.scale]]));
+}"""
+LOADING = "Put the red parcel on the trolley, then put the trolley in the loading bay"
+
+
+@pytest.mark.parametrize(("world", "text"), [("house", SHIP), ("warehouse", LOADING)])
+def test_the_page_puts_things_where_the_pictures_have_them(
+    visit: Open, site: httpx.Client, world: str, text: str
+) -> None:
+    page = visit(world)
+    plan = site.post("/plan", json={"text": text, "environment": world}).json()
+    for step in site.post(f"{plan['policy']['url']}/run", json={"seed": 1}).json()["steps"]:
+        state = step["state"]
+        svg = site.get(f"/environments/{world}/image", params={"state": json.dumps(state)}).text
+        groups = [group for group in ElementTree.fromstring(svg).iter(f"{SVG}g") if group.get("data-object")]
+        expected = {group.get("data-object"): place(group.get("transform") or "") for group in groups}
+        found = page.evaluate(SPOTS, [svg, state])
+        assert found.keys() == expected.keys()
+        for name, spot in expected.items():
+            assert found[name] == pytest.approx(spot, abs=0.01), (name, state)
+
+
+def place(transform: str) -> tuple[float, float, float]:
+    numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", transform)]
+    return numbers[0], numbers[1], numbers[2] if len(numbers) > 2 else 1.0
+
+
+def drag(page: Any, thing: str, cell: str) -> None:
+    """With the mouse, from the middle of a thing to the middle of a cell."""
+    page.locator("#world").scroll_into_view_if_needed()
+    grip = page.locator(f"[data-object={thing}]").bounding_box()
+    target = page.locator(f"[data-cell={cell}]").bounding_box()
+    page.mouse.move(grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] * 0.45)
+    page.mouse.down()
+    page.mouse.move(target["x"] + target["width"] / 2, target["y"] + target["height"] / 2, steps=5)
+    page.mouse.up()
