@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -13,6 +13,9 @@ test: $(VENV)/.dev
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest
+
+wheel: $(VENV)/.serve  # into dist/
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .
 
 wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environment of its own
 	$(BIN)/python -m pytest -m long tests/packaging

@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
+from service.http.admission import document_admission
 from service.http.links import document_links
 from service.http.problems import MEDIA_TYPE
 
@@ -41,6 +42,7 @@ def openapi(app: FastAPI) -> dict[str, Any]:
             routes=app.routes,
             separate_input_output_schemas=app.separate_input_output_schemas,
         )
+        document_admission(document)
         _document_problems(document)
         _document_streams(document)
         _name_schemas(document)

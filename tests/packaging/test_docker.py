@@ -32,7 +32,7 @@ def test_every_variable_is_a_setting(name: str) -> None:
     settings = {f"CQLTL_{field.upper()}" for field in Settings.model_fields}
     named = set(re.findall(r"\bCQLTL_[A-Z_]+\b", (DOCKER / name).read_text(encoding="utf-8")))
     assert named
-    assert named <= settings | FOR_COMPOSE | {"CQLTL_ALLOW_UNAUTHENTICATED"}  # the limits of issue 6 bring this one
+    assert named <= settings | FOR_COMPOSE
 
 
 @pytest.mark.parametrize("name", COMPOSE)

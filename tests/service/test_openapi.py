@@ -136,3 +136,12 @@ def test_the_requests_that_are_shown_are_answered(client: httpx.Client, document
                 assert response.is_success, (path, body, response.text)
                 shown += 1
     assert shown >= 6
+
+
+def test_whoever_needs_a_key_can_read_so(document: dict[str, Any]) -> None:
+    assert document["components"]["securitySchemes"]["ApiKey"]["scheme"] == "bearer"
+    plan, live = document["paths"]["/plan"]["post"], document["paths"]["/livez"]["get"]
+    assert plan["security"] == [{}, {"ApiKey": ["plan"]}]  # none where the service has no keys
+    assert {"401", "403", "408", "429", "503"} <= set(plan["responses"])
+    assert "security" not in live
+    assert not {"401", "403", "408", "429"} & set(live["responses"])
