@@ -6,12 +6,12 @@ from typing import Any
 
 _BODY = "$response.body#"
 _POLICY = {"policy_id": f"{_BODY}/policy/id"}
-_OBSERVED = {"state": f"{_BODY}/initial/state", "memory": f"{_BODY}/initial/memory"}
+_OBSERVED = f"{_BODY}/initial"
 _JOB = {"job_id": f"{_BODY}/id"}
 _ENVIRONMENT = {"name": f"{_BODY}/name"}
 _TASK = {"task": f"{_BODY}/task"}
 
-_LINKS: dict[tuple[str, str], list[tuple[str, dict[str, str], dict[str, str] | None]]] = {
+_LINKS: dict[tuple[str, str], list[tuple[str, dict[str, str], str | None]]] = {
     ("plan", "200"): [
         ("stepPolicy", _POLICY, _OBSERVED),
         ("getPolicy", _POLICY, None),
@@ -39,6 +39,6 @@ def document_links(document: dict[str, Any]) -> None:
                     response["links"] = {name: _link(name, parameters, body) for name, parameters, body in links}
 
 
-def _link(operation: str, parameters: dict[str, str], body: dict[str, str] | None) -> dict[str, Any]:
+def _link(operation: str, parameters: dict[str, str], body: str | None) -> dict[str, Any]:
     said: dict[str, Any] = {"operationId": operation, "parameters": dict(parameters)}
-    return said if body is None else {**said, "requestBody": dict(body)}
+    return said if body is None else {**said, "requestBody": body}

@@ -109,13 +109,20 @@ def test_links_go_on_to_what_is_there(document: dict[str, Any]) -> None:
         target = operations[link["operationId"]]
         needed = {parameter["name"] for parameter in target["parameters"] if parameter["in"] == "path"}
         assert set(link["parameters"]) == needed
-        for expression in [*link["parameters"].values(), *link.get("requestBody", {}).values()]:
-            schema = response["content"]["application/json"]["schema"]
-            for member in expression.removeprefix("$response.body#/").split("/"):
-                schema = resolved(document, schema)["properties"][member]
+        answer = response["content"]["application/json"]["schema"]
+        for expression in link["parameters"].values():
+            assert said_by(document, answer, expression)
         if "requestBody" in link:
-            body = target["requestBody"]["content"]["application/json"]["schema"]
-            assert set(link["requestBody"]) <= set(resolved(document, body)["properties"])
+            sent = resolved(document, said_by(document, answer, link["requestBody"]))
+            body = resolved(document, target["requestBody"]["content"]["application/json"]["schema"])
+            assert set(body["required"]) <= set(sent["properties"]) <= set(body["properties"])
+
+
+def said_by(document: dict[str, Any], schema: dict[str, Any], expression: str) -> dict[str, Any]:
+    """The schema of what an expression takes from an answer."""
+    for member in expression.removeprefix("$response.body#/").split("/"):
+        schema = resolved(document, schema)["properties"][member]
+    return schema
 
 
 def resolved(document: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
