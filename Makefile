@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz page-check wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -16,6 +16,9 @@ fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 
 wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environment of its own
 	$(BIN)/python -m pytest -m long tests/packaging
+
+page-check: $(VENV)/.dev  # the page in Chromium: what a visitor does, who can use it, how it looks
+	$(BIN)/python -m pytest -m long tests/page
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py
