@@ -59,6 +59,7 @@ bench: $(VENV)/.dev
 
 bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500 jobs; about half an hour
 	$(BIN)/python -m benchmarks.reliability
+	$(BIN)/python -m pytest -m long tests/benchmarks
 
 bench-load: $(VENV)/.dev  # how much can be served, beside an empty endpoint; needs wrk
 	$(BIN)/python -m benchmarks.load
