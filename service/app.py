@@ -20,6 +20,7 @@ from starlette.middleware.gzip import GZipMiddleware
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
 from service.http import environments, explanations, health, jobs, language, page, plans, policies, templates
+from service.http.dependencies import refusals
 from service.http.gate import Gate, cors
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
@@ -59,6 +60,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         license_info={"name": "GPL-3.0-or-later", "identifier": "GPL-3.0-or-later"},
         lifespan=partial(_lifespan, settings, warm),
         separate_input_output_schemas=False,
+        responses=refusals("request-timeout", "unauthorized", "forbidden", "rate-limited"),
     )
     app.state.closing = threading.Event()
     install(app)
