@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz page-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -19,6 +19,9 @@ wheel: $(VENV)/.serve  # into dist/
 
 wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environment of its own
 	$(BIN)/python -m pytest -m long tests/packaging
+
+page-check: $(VENV)/.dev  # the page in Chromium: what a visitor does, who can use it, how it looks
+	$(BIN)/python -m pytest -m long tests/page
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py
@@ -59,6 +62,7 @@ bench: $(VENV)/.dev
 
 bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500 jobs; about half an hour
 	$(BIN)/python -m benchmarks.reliability
+	$(BIN)/python -m pytest -m long tests/benchmarks
 
 bench-load: $(VENV)/.dev  # how much can be served, beside an empty endpoint; needs wrk
 	$(BIN)/python -m benchmarks.load

@@ -11,6 +11,7 @@ import pytest
 from service.http.page import FILES, POLICY
 from tests.page.conftest import SCREENSHOTS, Open, command, faster, said
 
+pytestmark = pytest.mark.long
 SHIP = "Put the towel in the basket, then put the basket in the bathroom"
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from tests.page.conftest import SCREENSHOTS, Open, command, faster, said
 
+pytestmark = pytest.mark.long
 SHIP = "Put the towel in the basket, then put the basket in the bathroom"
 SVG = "{http://www.w3.org/2000/svg}"
 

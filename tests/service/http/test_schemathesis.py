@@ -34,6 +34,7 @@ def run(folder: Path, *options: str) -> None:
     assert "Tested: 0" not in result.stdout
 
 
+@pytest.mark.long
 def test_a_short_run(tmp_path: Path) -> None:
     """The same requests in every run."""
     run(tmp_path, "--generation-deterministic", "--max-examples", "5")
