@@ -28,7 +28,9 @@ class Sweeps:
     ends: list[float] = field(default_factory=list)
     stages: dict[str, float] = field(default_factory=dict)
 
-    def __call__(self, stage: Stage, _sweep: int, _lower: float, _upper: float, _states: int, /) -> None:
+    def __call__(
+        self, stage: Stage, _sweep: int, _lower: float, _upper: float, _states: int, _left: float = 0.0, /
+    ) -> None:
         """See `models.planning.Progress`."""
         now = time.perf_counter()
         self.stages[stage] = self.stages.get(stage, 0.0) + now - self.last

@@ -122,7 +122,7 @@ def compile_world(world: World, *, progress: Progress = no_progress) -> Compiled
     for number, start in enumerate(range(0, world.size, BLOCK)):
         stop = min(start + BLOCK, world.size)
         blocks.append(_compile_block(world, valid, start, stop))
-        progress("compile", number + 1, 0.0, np.inf, stop)
+        progress("compile", number + 1, 0.0, np.inf, stop, -(-(world.size - stop) // BLOCK))
     return CompiledWorld(
         states=world.size,
         valid=valid,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
 from models.planning.qualities import Qualities
 from models.planning.steps import Steps
+from models.planning.trend import Trend
 
 ERROR = 1e-9
 """Error of the evaluated probabilities that is aimed at."""
@@ -60,10 +61,15 @@ def attained_probability(
     longest = float(bound[nodes].max())
     operator = operator_of(chain, options.device)
     most = MOST_SWEEPS if len(nodes) > DIRECT_LIMIT else DIRECT_AFTER
-    change, x = _settle(operator, x, ERROR / longest, options.sweeps("evaluate", most=most))
+
+    def tell(sweep: int, left: float) -> None:
+        progress("evaluate", sweep, 0.0, 1.0, len(nodes), left)
+
+    change, x = _settle(operator, x, ERROR / longest, options.sweeps("evaluate", most=most), tell)
     if change * longest > ERROR and len(nodes) <= DIRECT_LIMIT:
         solved = Improver(chain, maximise=True).evaluate(np.arange(len(nodes), dtype=np.int32))
-        change, x = _settle(operator, x if solved is None else solved, ERROR / longest, options.sweeps("evaluate"))
+        start = x if solved is None else solved
+        change, x = _settle(operator, start, ERROR / longest, options.sweeps("evaluate"), tell)
     progress("evaluate", 1, *_watched(unknown, initial, x), len(nodes))
     value[nodes] = x
     error = (change + chain.roundoff) * bound[nodes]
@@ -76,15 +82,19 @@ def _watched(unknown: NDArray[np.int32], node: int, x: Vector) -> tuple[float, f
     return value, value
 
 
-def _settle(operator: Operator, start: Vector, small: float, sweeps: Iterable[int]) -> tuple[float, Vector]:
+def _settle(
+    operator: Operator, start: Vector, small: float, sweeps: Iterable[int], tell: Callable[[int, float], None]
+) -> tuple[float, Vector]:
     """Iterate until a sweep changes nothing by more than `small` or rounding; how far one step of the chain may
-    change the vector, and the vector.
+    change the vector, and the vector. `tell` hears of every sweep, and how many are left.
     """
     x = operator.vector(start)
-    floor = operator.choices.roundoff
+    aim = max(small, operator.choices.roundoff)
+    trend = Trend(aim)
     change = np.inf
     for sweep in sweeps:
         change = operator.settle(x, sweep)
-        if change <= max(small, floor):
+        tell(sweep, trend.left(change))
+        if change <= aim:
             break
     return change, operator.numpy(x)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
@@ -67,15 +68,18 @@ class Options:
 class Progress(Protocol):
     """Told about every sweep; an exception that it raises cancels the plan and reaches the caller of `plan`."""
 
-    def __call__(self, stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
+    def __call__(
+        self, stage: Stage, sweep: int, lower: float, upper: float, states: int, left: float = math.nan, /
+    ) -> None:
         """`sweep` counts from 1, and stays where it is while a small system is solved directly; the bounds are
-        those of the initial state's value; `states` is what a sweep updates.
+        those of the initial state's value; `states` is what a sweep updates; `left` is how many sweeps the iteration
+        still needs by `models.planning.trend`, or nan where there is no telling.
 
         In "compile" a sweep is one block of states, `states` is how many are compiled, and the bounds say
-        nothing yet (0 and infinity). In "graph" it is a stretch of a search, `states` is how many outcomes it looked
-        at, and the bounds say nothing either; stretches are counted anew in each search.
+        nothing yet (0 and infinity); `left` is exact. In "graph" it is a stretch of a search, `states` is how many
+        outcomes it looked at, and the bounds say nothing either; stretches are counted anew in each search.
         """
 
 
-def no_progress(stage: Stage, sweep: int, lower: float, upper: float, states: int, /) -> None:
+def no_progress(stage: Stage, sweep: int, lower: float, upper: float, states: int, left: float = math.nan, /) -> None:
     """Tell nobody."""

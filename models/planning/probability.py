@@ -31,6 +31,7 @@ from models.planning.operator import Operator, operator_of
 from models.planning.options import Options, Progress, no_progress
 from models.planning.product import Product
 from models.planning.qualities import Qualities
+from models.planning.trend import UNKNOWN, Trend
 
 PRECISION = 1e-11
 """Gap that is aimed at, well under any useful epsilon: ties between actions are decided on these values."""
@@ -125,15 +126,16 @@ def iterate_intervals(
     lower, upper = operator.vector(0.0), operator.vector(1.0)
     known = watched < 0
 
-    def tell(sweep: int) -> None:
+    def tell(sweep: int, left: float = UNKNOWN) -> None:
         if progress is not no_progress:
             low, high = (1.0, 1.0) if known else (operator.at(lower, watched), operator.at(upper, watched))
-            progress("probability", sweep, low, high, choices.unknowns)
+            progress("probability", sweep, low, high, choices.unknowns, left)
 
     sweeps, cut = 0, False
+    trend = Trend(RISE, most=DIRECT_AFTER if choices.unknowns <= DIRECT_LIMIT else options.max_sweeps)
     for sweeps in options.sweeps("probability"):
         rise = operator.ascend(lower)
-        tell(sweeps)
+        tell(sweeps, trend.left(rise))
         if rise <= RISE:
             break
         if sweeps == DIRECT_AFTER and choices.unknowns <= DIRECT_LIMIT:
@@ -145,19 +147,21 @@ def iterate_intervals(
         lower, upper = _solve_directly(operator, lower, upper, partial(tell, sweeps))
     if proved is not None:
         upper = operator.vector(np.minimum(operator.numpy(proved), operator.numpy(upper)))
-        tell(sweeps + 1)
+        tell(sweeps + 1, 0.0)
         return operator.numpy(lower), operator.numpy(upper), True
     return *_close(operator, lower, upper, sweeps, options, tell), False
 
 
-def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[], None]) -> Any | None:
-    """Upper bounds at most `epsilon` above the lower ones, or None where no such guess is proved."""
+def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[float], None]) -> Any | None:
+    """Upper bounds at most `epsilon` above the lower ones, or None where no such guess is proved. `alive` hears how
+    many passes are left at most for the guess.
+    """
     for guess in (guess for guess in GUESSES if guess <= epsilon / 2):
         upper = operator.vector(np.minimum(1.0, operator.numpy(lower) + guess))
         growth = np.inf
-        for _ in range(PROOF_SWEEPS):
+        for number in range(1, PROOF_SWEEPS + 1):
             before, growth = growth, operator.cover(upper)
-            alive()
+            alive(0.0 if growth == 0.0 else PROOF_SWEEPS - number)
             if growth == 0.0:
                 return upper
             if growth > 2 * guess or (growth > before and growth > guess):
@@ -166,14 +170,15 @@ def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[], N
 
 
 def _close(
-    operator: Operator, lower: Any, upper: Any, done: int, options: Options, tell: Callable[[int], None]
+    operator: Operator, lower: Any, upper: Any, done: int, options: Options, tell: Callable[[int, float], None]
 ) -> tuple[Vector, Vector]:
     """Both bounds by interval iteration, until they are `options.epsilon` apart or no sweep brings them closer."""
-    gap = 1.0
+    gap, aim = 1.0, min(PRECISION, options.epsilon)
+    trend = Trend(aim, most=options.max_sweeps - done)
     for sweep in options.sweeps("probability", after=done):
         previous, gap = gap, operator.narrow(lower, upper, sweep)
-        tell(sweep)
-        if gap <= min(PRECISION, options.epsilon):
+        tell(sweep, trend.left(gap))
+        if gap <= aim:
             break
         if gap == previous and sweep % DIRECT_AFTER == 0:  # as close as floating point gets
             break

@@ -22,6 +22,7 @@ from models.planning.choices import Choices, Vector
 from models.planning.kernels import sweeps
 from models.planning.options import Options, Progress
 from models.planning.ragged import spans
+from models.planning.trend import Trend
 
 DAMPING = 0.8
 """The share of a step in a sweep; less than one, so that iteration cannot oscillate on periodic components."""
@@ -88,10 +89,14 @@ def _iterate(
     low, high = np.empty(count), np.empty(count)
     h, out = np.zeros(problem.unknowns), np.empty(problem.unknowns)
     small = bool((np.bincount(group) <= DIRECT_LIMIT).all())
-    for sweep in options.sweeps("rounds", most=DIRECT_AFTER if small else MAX_SWEEPS):
+    most = DIRECT_AFTER if small else MAX_SWEEPS
+    trend = Trend(PRECISION, most=most)
+    for sweep in options.sweeps("rounds", most=most):
         sweeps.average(*problem.arrays, h, out, group, DAMPING, low, high)
         least = float(low.min())
-        progress("rounds", sweep, 1.0 / float(high.max()), 1.0 / least if least > 0 else np.inf, problem.unknowns)
+        left = trend.left(float((1.0 - low / high).max()))
+        upper = 1.0 / least if least > 0 else np.inf
+        progress("rounds", sweep, 1.0 / float(high.max()), upper, problem.unknowns, left)
         if (high - low <= PRECISION * high).all():
             break
         h, out = out, h

@@ -35,6 +35,7 @@ from models.planning.probability import DIRECT_AFTER, Probability
 from models.planning.product import Product
 from models.planning.qualities import Qualities
 from models.planning.ragged import owners
+from models.planning.trend import UNKNOWN, Trend
 
 RESIDUAL = 1e-8
 """Change in a sweep, in units of the least cost, at which iteration stops: the relative error of the expected steps."""
@@ -122,15 +123,17 @@ def _solve(
     x = operator.vector(start)
     residual = min(RESIDUAL, options.epsilon)
 
-    def tell(sweep: int, change: float) -> None:
+    trend = Trend(residual, most=DIRECT_AFTER if choices.unknowns <= DIRECT_LIMIT else options.max_sweeps)
+
+    def tell(sweep: int, change: float, left: float = UNKNOWN) -> None:
         if progress is not no_progress:
             value = operator.at(x, watched) if watched >= 0 else 0.0
             upper = value / (1.0 - change) if change < 1.0 else np.inf
-            progress("steps", sweep, value / (1.0 + change), upper, choices.unknowns)
+            progress("steps", sweep, value / (1.0 + change), upper, choices.unknowns, left)
 
     for sweep in options.sweeps("steps"):
         change = operator.improve(x) / least
-        tell(sweep, change)
+        tell(sweep, change, trend.left(change))
         if change <= residual:
             break
         if sweep % DIRECT_AFTER == 0 and change * least <= choices.roundoff * float(operator.numpy(x).max()):

@@ -124,7 +124,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         relevance=job.relevance,
         hurry=lambda stage: time.monotonic() - started > SHARES.get(stage, 1.0) * job.timeout_s,
     )
-    meter = Meter(board(), epsilon=job.epsilon)
+    meter = Meter(board(), ends={stage: started + share * job.timeout_s for stage, share in SHARES.items()})
     found = plan(world, job.formula, initial=initial, options=options, progress=meter)
     run = found.trajectory
     whole = run is not None and len(run.steps) <= MAX_STEPS

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Callable, MutableSequence
+from collections.abc import Callable, Mapping, MutableSequence
 from dataclasses import dataclass
 
 STAGES = ("compile", "graph", "rounds", "probability", "steps", "evaluate")
@@ -22,10 +22,7 @@ INTERVAL_S = 0.05
 """Least time between two reports; planning tells of every sweep."""
 
 WINDOW = 40
-"""Reports that the estimate of the rest looks back on."""
-
-STEPS_PRECISION = 1e-8
-"""Relative gap at which expected steps are done (`models.planning.steps.RESIDUAL`)."""
+"""Reports that the time of a sweep is taken over."""
 
 READS = 100
 """Times that a torn board is read again before it counts as empty."""
@@ -38,7 +35,8 @@ Board = MutableSequence[float]
 class Progress:
     """What a plan is at: the stage, the sweep of the stage, the states that a sweep updates, bounds of the value that
     the stage computes (`upper` infinite while there is none), seconds since it started, and the seconds that the stage
-    still needs, judging by how its bounds have closed so far; None where they tell nothing.
+    still needs: the sweeps left by `models.planning.trend`, each as long as the last ones were, but no longer than the
+    stage may take. None before there is a rate, and in what only knows at its end how much it had to look at: searches.
     """
 
     stage: str
@@ -72,22 +70,28 @@ def read(board: Board, elapsed_s: float) -> Progress | None:
 class Meter:
     """Puts the progress of a plan on a board, not more often than is looked at; a `models.planning.Progress`."""
 
-    def __init__(self, board: Board, *, epsilon: float, clock: Callable[[], float] = time.monotonic) -> None:
-        self._board, self._clock = board, clock
-        self._target = {"probability": epsilon, "steps": min(STEPS_PRECISION, epsilon)}
-        self._stage, self._next, self._count = "", -math.inf, 0
-        self._gaps: deque[tuple[float, float]] = deque(maxlen=WINDOW)  # time, logarithm of the gap
+    def __init__(
+        self, board: Board, *, ends: Mapping[str, float] | None = None, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """`ends` are the times of the clock at which stages are ended, done or not."""
+        self._board, self._clock, self._ends = board, clock, ends or {}
+        self._stage, self._sweep, self._next, self._count = "", 0, -math.inf, 0
+        self._told: deque[tuple[float, int]] = deque(maxlen=WINDOW)  # time, sweep
 
-    def __call__(self, stage: str, sweep: int, lower: float, upper: float, states: int, /) -> None:
+    def __call__(
+        self, stage: str, sweep: int, lower: float, upper: float, states: int, left: float = math.nan, /
+    ) -> None:
         """Report a sweep."""
         now = self._clock()
-        if now < self._next and stage == self._stage:
+        same = stage == self._stage
+        if not same or sweep < self._sweep:  # an iteration begins
+            self._told.clear()
+            self._told.append((now, sweep))
+        self._stage, self._sweep = stage, sweep
+        if same and now < self._next:
             return
-        if stage != self._stage:
-            self._stage = stage
-            self._gaps.clear()
         self._next = now + INTERVAL_S
-        self._write(stage, sweep, states, lower, upper, self._remaining(now, lower, upper))
+        self._write(stage, sweep, states, lower, upper, self._remaining(now, sweep, left))
 
     def _write(self, stage: str, *numbers: float) -> None:
         self._count += 1
@@ -96,15 +100,12 @@ class Meter:
             self._board[place] = number
         self._board[SIZE - 1] = self._count
 
-    def _remaining(self, now: float, lower: float, upper: float) -> float:
-        """Seconds until the gap of the bounds is what the stage aims at, if it goes on closing at the same rate."""
-        target = self._target.get(self._stage)
-        gap = upper - lower if self._stage == "probability" else (upper - lower) / max(lower, 1.0)
-        if target is None or not 0 < gap < math.inf:
-            self._gaps.clear()
+    def _remaining(self, now: float, sweep: int, left: float) -> float:
+        """Seconds that so many sweeps take, at the pace of the last ones."""
+        self._told.append((now, sweep))
+        begun, first = self._told[0]
+        if left == 0:
+            return 0.0
+        if math.isnan(left) or sweep <= first:
             return math.nan
-        self._gaps.append((now, math.log(gap)))
-        (begun, wide), (_, narrow) = self._gaps[0], self._gaps[-1]
-        if narrow >= wide or now <= begun:
-            return math.nan
-        return max(0.0, (narrow - math.log(target)) * (now - begun) / (wide - narrow))
+        return min(left * (now - begun) / (sweep - first), max(0.0, self._ends.get(self._stage, math.inf) - now))

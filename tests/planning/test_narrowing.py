@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from itertools import product
 from typing import Any
 
 import pytest
@@ -191,6 +192,22 @@ def test_random_worlds_and_formulas(block: int, objective: Objective) -> None:
         solved += full.outcome == "solved"
     assert smaller >= 8
     assert solved >= 8
+
+
+def test_without_time_for_more_the_bounds_are_those_of_the_whole_world() -> None:
+    """Where no larger part is tried they may be wide, but hold."""
+    wide = 0
+    objectives: tuple[Objective, ...] = ("max", "min")
+    for seed, objective in product(range(100, 160), objectives):
+        pick = random.Random(seed)
+        world, formula = random_board(pick), parse(random_formula(seed, pick))
+        short = plan(world, formula, options=Options(objective=objective, hurry=lambda _: True))
+        full = plan(world, formula, options=Options(objective=objective, relevance=False))
+        assert short.outcome == full.outcome
+        assert short.lower <= full.lower + 1e-9
+        assert full.upper <= short.upper + 1e-9
+        wide += short.upper - short.lower > 1e-6
+    assert wide
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -26,6 +26,7 @@ from models.planning.errors import ModelTooLargeError
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import INVALID, NOTHING
 from models.planning.solution import Solution, smallest
+from models.planning.trend import Trend
 from models.world import Factored, IdlingWorld, OomdpWorld, ProjectedWorld, World
 
 RESIDUAL = 1e-8
@@ -194,9 +195,10 @@ class _Solver:
         search.begin_at(distance, least, value)
         del distance
         ticks = np.zeros((2, self._count), dtype=np.int64)
+        trend = Trend(0.5, most=self._options.max_sweeps)  # fewer than one value rises
         for sweep in self._options.sweeps("steps"):
             rising = self._sweep(value, plan, RESIDUAL * least, ticks, sweep)
-            self._progress("steps", sweep, 0.0, np.inf, value.size)
+            self._progress("steps", sweep, 0.0, np.inf, value.size, trend.left(rising))
             if not rising:
                 break
             if sweep == SLOW and value.size <= DIRECT_LIMIT:

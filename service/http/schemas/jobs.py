@@ -27,8 +27,8 @@ class JobProgress(BaseModel):
     elapsed_s: float | None = Field(None, description="Seconds since planning began.")
     remaining_s: float | None = Field(
         None,
-        description="Seconds that the stage still needs if its bounds go on closing as they did; null where that "
-        "cannot be told.",
+        description="Seconds that the stage still needs if it goes on closing in on its end as it did; null before "
+        "there is a rate, and in searches, which only know at their end how much they had to look at.",
     )
 
 

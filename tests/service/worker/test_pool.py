@@ -103,7 +103,7 @@ def die_once(mark: str) -> int:
 
 
 def report(_: None) -> None:
-    Meter(board(), epsilon=1e-6)("steps", 3, 1.5, 2.5, 99)
+    Meter(board())("steps", 3, 1.5, 2.5, 99)
     time.sleep(60)
 
 

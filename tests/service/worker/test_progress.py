@@ -1,4 +1,4 @@
-"""Progress: what is written is read, not too often, and the rest is estimated from how bounds close."""
+"""Progress: what is written is read, not too often, and the rest is the sweeps left at their pace."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from service.worker.progress import INTERVAL_S, SIZE, Meter, Progress, clear, read
+from service.worker.progress import INTERVAL_S, SIZE, WINDOW, Meter, Progress, clear, read
 
 
 class Clock:
@@ -20,9 +20,15 @@ class Clock:
         return self.now
 
 
-def fresh(epsilon: float = 1e-6) -> tuple[list[float], Clock, Meter]:
+def fresh(**ends: float) -> tuple[list[float], Clock, Meter]:
     board, clock = [0.0] * SIZE, Clock()
-    return board, clock, Meter(board, epsilon=epsilon, clock=clock)
+    return board, clock, Meter(board, ends=ends, clock=clock)
+
+
+def rest(board: list[float]) -> float | None:
+    found = read(board, 0.0)
+    assert found is not None
+    return found.remaining_s
 
 
 def test_an_empty_board_says_nothing() -> None:
@@ -53,27 +59,61 @@ def test_sweeps_are_reported_no_more_often_than_is_looked_at_but_every_stage_is(
     assert (found.stage, found.sweep) == ("probability", 1)
 
 
-@pytest.mark.parametrize(("stage", "epsilon", "aim"), [("probability", 1e-6, 1e-6), ("steps", 1e-3, 1e-8)])
-def test_the_rest_of_a_gap_that_shrinks_evenly_is_known(stage: str, epsilon: float, aim: float) -> None:
-    """The gap halves every second, so from g it takes log2(g / aim) seconds."""
-    board, clock, meter = fresh(epsilon)
-    for second in range(10):
-        clock.now = 100.0 + second
-        meter(stage, second + 1, 0.5, 0.5 + 2.0**-second, 9)
-    found = read(board, 9.0)
-    assert found is not None
-    assert found.remaining_s is not None
-    assert found.remaining_s == pytest.approx(math.log2(2.0**-9 / aim), rel=1e-6)
-
-
-def test_no_estimate_where_the_bounds_do_not_close() -> None:
+def test_the_rest_is_the_sweeps_left_at_the_pace_of_the_last_ones() -> None:
+    """Three sweeps a second: the seven that are left take 7/3 s."""
     board, clock, meter = fresh()
-    for lower, upper in ((0.1, 1.0), (0.1, 1.0), (0.5, math.inf)):
+    meter("steps", 1, 0.0, 1.0, 9, 10)
+    assert rest(board) is None  # nobody knows yet how long a sweep takes
+    for sweep in range(2, 32):
+        clock.now += 1 / 3
+        meter("steps", sweep, 0.0, 1.0, 9, 7)
+    assert rest(board) == pytest.approx(7 / 3)
+
+
+def test_the_pace_is_that_of_late() -> None:
+    board, clock, meter = fresh()
+    for sweep in range(1, 2 * WINDOW + 1):
+        clock.now += 1 if sweep <= WINDOW else 0.25
+        meter("steps", sweep, 0.0, 1.0, 9, 8)
+    assert rest(board) == pytest.approx(2)
+
+
+@pytest.mark.parametrize("left", [math.nan, 0.0])
+def test_what_is_not_known_has_no_rest_and_what_is_done_none_left(left: float) -> None:
+    board, clock, meter = fresh()
+    for sweep in (1, 2):
         clock.now += 1
-        meter("probability", 1, lower, upper, 9)
-        found = read(board, 0.0)
-        assert found is not None
-        assert found.remaining_s is None
+        meter("graph", sweep, 0.0, math.inf, 9, left)
+    assert rest(board) == (0.0 if left == 0 else None)
+
+
+def test_each_iteration_has_a_pace_of_its_own() -> None:
+    """Also one whose beginning was not reported, as it came too soon after the last report."""
+    board, clock, meter = fresh()
+    meter("probability", 1, 0.0, 1.0, 9, 5)
+    clock.now += 10
+    meter("probability", 2, 0.0, 1.0, 9, 5)
+    assert rest(board) == pytest.approx(50)
+    clock.now += INTERVAL_S / 2
+    meter("probability", 1, 0.0, 1.0, 9, 5)
+    clock.now += 1
+    meter("probability", 3, 0.0, 1.0, 9, 4)
+    assert rest(board) == pytest.approx(2)
+    meter("steps", 1, 0.0, 1.0, 9, 4)
+    assert rest(board) is None
+
+
+def test_a_stage_takes_no_longer_than_it_may() -> None:
+    board, clock, meter = fresh(steps=103.0)
+    for stage, wanted in (("steps", 1.0), ("compile", 100.0)):
+        for sweep in (1, 2):
+            clock.now += 1
+            meter(stage, sweep, 0.0, 1.0, 9, 100)
+        assert rest(board) == pytest.approx(wanted)
+    meter("steps", 3, 0.0, 1.0, 9, 100)
+    clock.now += 1
+    meter("steps", 4, 0.0, 1.0, 9, 100)  # it is over
+    assert rest(board) == 0
 
 
 def test_a_reader_never_sees_half_a_report() -> None:
