@@ -11,9 +11,11 @@ import httpx
 import pytest
 
 from tests.page.conftest import SCREENSHOTS, Open, command, faster, said
+from tests.world.worlds import TINY
 
 pytestmark = pytest.mark.long
 SHIP = "Put the towel in the basket, then put the basket in the bathroom"
+LESSON = {"contextual_query": "finish()", "ltl": "F b", "environment": "tiny", "examples": ["head for the end"]}
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -130,16 +132,40 @@ def test_an_object_is_moved_by_keyboard_in_the_middle_of_a_run(visit: Open) -> N
     said(page, "Done: the task holds")
 
 
-def test_what_the_plan_did_not_cover_is_planned_anew(visit: Open) -> None:
-    page = visit("toys")
-    command(page, "Go to the bedroom or the bathroom")
-    page.wait_for_selector("#play:not([disabled])")
-    drag(page, "robot", "living_room")
-    said(page, "Robot was moved to living room.")
+def test_what_the_plan_does_not_cover_is_planned_anew(visit: Open) -> None:
+    page = visit()
+    command(page, SHIP)
+    said(page, "1. ")
+    page.click("#play")
+    # Plans cover whatever can be dragged here; that of a world too large to plan for all would say this.
+    problem = {"type": "urn:cqltl:problem:invalid-state", "title": "invalid state", "status": 422, "errors": []}
+    refusal = json.dumps({**problem, "detail": "the plan was made for what can be reached: plan again"})
+    page.route(
+        "**/run",
+        lambda route: route.fulfill(status=422, content_type="application/problem+json", body=refusal),
+        times=1,
+    )
+    drag(page, "robot", "spot_5_1")
+    said(page, "Robot was moved to living room (column 5, row 1). The plan was made anew from here.")
+    asked = page.locator("#plan-curl pre").text_content()
+    assert '"robot":{"at":"spot_5_1"}' in asked
+    faster(page)
+    said(page, "Done: the task holds")
 
 
 def test_things_moved_before_anything_is_planned_are_where_plans_begin(visit: Open) -> None:
     page = visit("toys")
+    drag(page, "sphere", "kitchen")
+    said(page, "Plans begin from here.")
+    page.click(".more summary")
+    page.get_by_role("button", name="Put everything back").click()
+    said(page, "Everything is where it was at first.")
+    command(page, "Pickup the sphere")
+    said(page, "Next: east")
+    page.select_option("#world-name", "house")
+    page.wait_for_function("() => location.hash === '#house'")
+    page.select_option("#world-name", "toys")
+    page.wait_for_function("() => location.hash === '#toys'")
     drag(page, "sphere", "kitchen")
     said(page, "Plans begin from here.")
     command(page, "Pickup the sphere")
@@ -178,6 +204,17 @@ def test_values_and_arrows_are_those_of_the_policy(visit: Open, site: httpx.Clie
     assert page.locator(".arrow-sign").all_text_contents() == ["→", "→", "→"]
     assert page.locator(".doing").all_text_contents() == ["pick"]
     assert page.locator(".value").all_text_contents() == ["4.0", "3.0", "2.0", "1.0"]
+
+
+def test_a_world_without_a_map_is_listed_and_runs(visit: Open, site: httpx.Client) -> None:
+    assert site.put("/environments/tiny", json=TINY | {"name": "tiny"}).status_code in (200, 201)
+    assert site.post("/learn", json=LESSON).status_code in (200, 201)
+    page = visit("tiny")
+    assert page.locator("#world").inner_text() == "mdp state 0"
+    faster(page)
+    command(page, "Head for the end")
+    said(page, "Done: the task holds")
+    assert page.locator("#world").inner_text() == "mdp state 2"
 
 
 def test_refusals_are_said_where_they_belong(visit: Open) -> None:

@@ -22,7 +22,7 @@ ROBOT = (28.0, 47.0)
 """In a cell: the robot."""
 FLOOR = 73.0
 """In a cell: the height at which things lie."""
-HELD = (15.0, -17.0)
+HELD = (19.0, -14.0)
 """What is carried, from its carrier."""
 SHRUNK = 0.66
 """Size of what is in or on something else."""

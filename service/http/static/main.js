@@ -35,7 +35,8 @@ async function enter(name) {
   forget();
   tell("command-problem");
   environment = (await request("GET", `/environments/${encodeURIComponent(name)}`)).body;
-  initial = environment.spec.state ?? {};
+  const { spec } = environment;
+  initial = spec.kind === "explicit" ? { mdp: { state: String(spec.initial ?? 0) } } : (spec.state ?? {});
   start = null;
   await draw();
   byId("samples").replaceChildren(...environment.samples.map((text) =>
@@ -260,6 +261,14 @@ byId("move").addEventListener("submit", (event) => {
   event.preventDefault();
   player.pause();
   move(byId("move-what").value, byId("move-where").value);
+});
+
+byId("back").addEventListener("click", () => {
+  player.pause();
+  start = null;
+  if (asked && current) return say(asked.text, asked.answers);
+  world.show(initial);
+  byId("status").textContent = "Everything is where it was at first.";
 });
 
 byId("slip").addEventListener("input", () => setSlip(Number(byId("slip").value)));

@@ -3,7 +3,7 @@
 
 import { make, picture, shown, still } from "./dom.js";
 
-const CELL = 100, FIXTURE = [67, 31], ROBOT = [28, 47], FLOOR = 73, HELD = [15, -17], SHRUNK = 0.66, DEEPEST = 8;
+const CELL = 100, FIXTURE = [67, 31], ROBOT = [28, 47], FLOOR = 73, HELD = [19, -14], SHRUNK = 0.66, DEEPEST = 8;
 const SVG = "http://www.w3.org/2000/svg";
 
 export class World {
