@@ -6,13 +6,14 @@ import argparse
 import asyncio
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
+from service.errors import CannotStartError
 from service.exchange import add_commands, export, import_model
 from service.keys_command import add_keys_command, keys
 from service.settings import Settings
@@ -33,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "CQLTL_DATABASE_URL: PostgreSQL needs the extra `postgres`: pip install 'cqltl[postgres]'", file=sys.stderr
         )
         return 2
-    commands = {
+    commands: dict[str, Callable[[Settings, argparse.Namespace], int]] = {
         "serve": _serve,
         "worker": _worker,
         "keys": _keys,
@@ -41,8 +42,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "export": _export,
         "import": _import,
     }
-    run = commands.get(options.command, _request)
-    return run(settings, options)
+    try:
+        return commands.get(options.command, _request)(settings, options)
+    except CannotStartError as error:
+        print(error, file=sys.stderr)
+        return 1
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -122,15 +126,10 @@ def _serve(settings: Settings, options: argparse.Namespace) -> int:
     from service.forkserver import launch
 
     launch()  # before this process loads what it needs itself, so that both load at once
-    from service.errors import CannotStartError
     from service.server import serve
 
     port = settings.port if options.port is None else options.port
-    try:
-        serve(settings, host=options.host or settings.host, port=port)
-    except CannotStartError as error:
-        print(error, file=sys.stderr)
-        return 1
+    serve(settings, host=options.host or settings.host, port=port)
     return 0
 
 
@@ -142,8 +141,10 @@ def _worker(settings: Settings, options: argparse.Namespace) -> int:
 
     launch()
     from service.jobs.queue_worker import work
+    from service.logs import configure
     from service.store.migrate import migrate
 
+    configure(settings.log_format, settings.log_level)
     said = f"cqltl works on {', '.join(options.queues)}"
     migrate(settings.url)
     asyncio.run(work(settings, options.queues, lambda: print(said, flush=True)))

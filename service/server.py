@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import logging
 import resource
 import socket
 import threading
@@ -13,6 +14,7 @@ from sqlalchemy.engine import make_url
 from service.app import create_app
 from service.errors import CannotStartError
 from service.http.protocol import protocol_of
+from service.logs import configure
 from service.settings import Settings
 
 _TRY = """
@@ -55,6 +57,7 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
             f"whoever reaches {host or 'this machine'} could use the service: make API keys with `cqltl keys add` and "
             "name their file in CQLTL_API_KEYS_FILE, or set CQLTL_ALLOW_UNAUTHENTICATED=true"
         )
+    configure(settings.log_format, settings.log_level)
     # asyncio turns Nagle's algorithm off only for sockets that name TCP; with it, every answer waits some 40 ms.
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
@@ -78,7 +81,8 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
         app = create_app(settings)
         config = uvicorn.Config(
             app,
-            log_level="warning",
+            log_config=None,
+            access_log=False,
             timeout_graceful_shutdown=10,
             timeout_keep_alive=settings.keep_alive_s,
             h11_max_incomplete_event_size=settings.max_head_bytes,
@@ -88,7 +92,13 @@ def serve(settings: Settings, *, host: str, port: int) -> None:
             ws="none",
             server_header=False,
         )
-        _Server(config, said, app.state.closing).run(sockets=[listener])
+        logging.getLogger("uvicorn.error").addFilter(lambda _: app.state.cannot_start is None)  # it is said once
+        try:
+            _Server(config, said, app.state.closing).run(sockets=[listener])
+        except SystemExit:  # uvicorn's end where the app does not start
+            if app.state.cannot_start is not None:
+                raise app.state.cannot_start from None
+            raise
 
 
 def _allow_files(count: int) -> None:

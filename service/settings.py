@@ -8,6 +8,8 @@ from pathlib import Path
 from pydantic import Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
+from service.logs import LogFormat, LogLevel
+
 
 class Settings(BaseSettings):
     """Everything a deployment can set."""
@@ -48,6 +50,8 @@ class Settings(BaseSettings):
     )
     max_store_bytes: int = Field(0, ge=0, description="Largest size of the SQLite file, in bytes; 0 sets no limit.")
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
+    log_format: LogFormat = Field("text", description="`text` for people, `json` for a line of JSON each.")
+    log_level: LogLevel = Field("warning", description="The least that is logged; `info` has a line for each request.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
 
     @cached_property

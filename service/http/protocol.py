@@ -109,7 +109,7 @@ class PatientProtocol(H11Protocol):
     def _unanswered(self) -> RequestResponseCycle | None:
         """The request that is being answered; uvicorn has none before the first, and keeps the last."""
         found: RequestResponseCycle | None = self.cycle
-        return None if found is None or found.response_complete else found  # type: ignore[redundant-expr]
+        return None if found is None or found.response_complete else found
 
     def _should_upgrade(self) -> bool:
         return False

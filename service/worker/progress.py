@@ -15,6 +15,9 @@ from dataclasses import dataclass
 STAGES = ("compile", "graph", "rounds", "probability", "steps", "evaluate")
 """The stages of planning, `models.planning.options.Stage`, as they are numbered on the board."""
 
+ITERATING = ("rounds", "probability", "steps")
+"""Those that sweep over values until they settle."""
+
 SIZE = 8
 """Numbers on a board."""
 
@@ -76,10 +79,13 @@ class Meter:
         self._board, self._clock = board, clock
         self._target = {"probability": epsilon, "steps": min(STEPS_PRECISION, epsilon)}
         self._stage, self._next, self._count = "", -math.inf, 0
+        self.sweeps = 0
+        """Sweeps of value iteration so far, those of all stages that iterate."""
         self._gaps: deque[tuple[float, float]] = deque(maxlen=WINDOW)  # time, logarithm of the gap
 
     def __call__(self, stage: str, sweep: int, lower: float, upper: float, states: int, /) -> None:
         """Report a sweep."""
+        self.sweeps += stage in ITERATING
         now = self._clock()
         if now < self._next and stage == self._stage:
             return
