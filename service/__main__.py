@@ -1,4 +1,4 @@
-"""The command line: `cqltl serve | worker | keys | learn | translate | explain | plan | export | import | openapi`."""
+"""The command line, `cqltl`: what runs the service, what asks it, and what reads and writes files."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "serve": _serve,
         "worker": _worker,
         "keys": _keys,
+        "doctor": _doctor,
         "openapi": _openapi,
         "export": _export,
         "import": _import,
@@ -61,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     worker.add_argument("--queues", type=_queues, default=["plan"], help="plan (default), gpu, or plan,gpu")
 
     add_keys_command(commands)
+    commands.add_parser("doctor", help="say what is wrong with the installation, the store or the settings")
 
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
@@ -153,6 +155,16 @@ def _worker(settings: Settings, options: argparse.Namespace) -> int:
 
 def _keys(settings: Settings, options: argparse.Namespace) -> int:
     return keys(settings, options)
+
+
+def _doctor(settings: Settings, _options: argparse.Namespace) -> int:
+    from service.doctor import examine
+
+    levels = []
+    for finding in examine(settings):
+        print(finding.line, flush=True)
+        levels.append(finding.level)
+    return 1 if "wrong" in levels else 0
 
 
 def _request(settings: Settings, options: argparse.Namespace) -> int:

@@ -26,6 +26,7 @@ from service.http.gate import Gate, cors
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
+from service.http.scopes import UNLIMITED, first_part
 from service.jobs import EmbeddedExecutor, Executor
 from service.keys import KeyRing
 from service.metrics import Metrics
@@ -62,6 +63,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         license_info={"name": "GPL-3.0-or-later", "identifier": "GPL-3.0-or-later"},
         lifespan=partial(_lifespan, settings, warm),
         separate_input_output_schemas=False,
+        telemetry={"auto_configure": True, "exclude": lambda scope: first_part(scope.get("path", "")) in UNLIMITED},
     )
     app.state.closing = threading.Event()
     app.state.cannot_start = None

@@ -7,7 +7,8 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from service.http.problems import MEDIA_TYPE
+from service.http.problems import MEDIA_TYPE, STATUS
+from service.http.scopes import OPEN, UNLIMITED, first_part
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
@@ -24,6 +25,7 @@ def openapi(app: FastAPI) -> dict[str, Any]:
             routes=app.routes,
             separate_input_output_schemas=app.separate_input_output_schemas,
         )
+        _document_gate(document)
         _document_problems(document)
         _document_streams(document)
         app.openapi_schema = document
@@ -47,6 +49,21 @@ def _document_problems(document: dict[str, Any]) -> None:
             operation["responses"] = dict(sorted(responses.items()))
     for name in ("HTTPValidationError", "ValidationError"):
         document["components"]["schemas"].pop(name, None)
+
+
+def _document_gate(document: dict[str, Any]) -> None:
+    """What may be refused before a route is asked. A service may want keys, and need not."""
+    for path, item in document["paths"].items():
+        part = first_part(path)
+        slugs = [] if part in OPEN else ["unauthorized", "forbidden"]
+        slugs += [] if part in UNLIMITED else ["rate-limited"]
+        for operation in item.values():
+            for slug in [*slugs, "request-timeout"] if "requestBody" in operation else slugs:
+                operation["responses"].setdefault(str(STATUS[slug]), {"description": f"`{slug}`"})
+    document["components"]["securitySchemes"] = {
+        "key": {"type": "http", "scheme": "bearer", "description": "An API key, where the service asks for one."}
+    }
+    document["security"] = [{}, {"key": []}]
 
 
 def _document_streams(document: dict[str, Any]) -> None:

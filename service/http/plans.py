@@ -39,6 +39,7 @@ router = APIRouter(tags=["planning"])
         **refusals(
             *BODY,
             *SLUGS,
+            "insufficient-storage",
             *GROUNDING,
             "unknown-environment",
             "unknown-template",
