@@ -1,4 +1,4 @@
-"""The command line: `cqltl serve | worker | keys | learn | translate | explain | plan | export | import | openapi`."""
+"""The command line, `cqltl`: what runs the service, what asks it, and what reads and writes files."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 import asyncio
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from urllib.parse import quote
 
 from pydantic import ValidationError
 
+from service.errors import CannotStartError
 from service.exchange import add_commands, export, import_model
 from service.keys_command import add_keys_command, keys
 from service.settings import Settings
@@ -39,16 +40,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "CQLTL_DATABASE_URL: PostgreSQL needs the extra `postgres`: pip install 'cqltl[postgres]'", file=sys.stderr
         )
         return 2
-    commands = {
+    commands: dict[str, Callable[[Settings, argparse.Namespace], int]] = {
         "serve": _serve,
         "worker": _worker,
         "keys": _keys,
+        "doctor": _doctor,
         "openapi": _openapi,
         "export": _export,
         "import": _import,
     }
-    run = commands.get(options.command, _request)
-    return run(settings, options)
+    try:
+        return commands.get(options.command, _request)(settings, options)
+    except CannotStartError as error:
+        print(error, file=sys.stderr)
+        return 1
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -63,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     worker.add_argument("--queues", type=_queues, default=["plan"], help="plan (default), gpu, or plan,gpu")
 
     add_keys_command(commands)
+    commands.add_parser("doctor", help="say what is wrong with the installation, the store or the settings")
 
     translate = _remote(commands.add_parser("translate", help="English to a contextual query and LTL"))
     translate.add_argument("text")
@@ -133,15 +139,10 @@ def _serve(settings: Settings, options: argparse.Namespace) -> int:
     from service.forkserver import launch
 
     launch()  # before this process loads what it needs itself, so that both load at once
-    from service.errors import CannotStartError
     from service.server import serve
 
     port = settings.port if options.port is None else options.port
-    try:
-        serve(settings, host=options.host or settings.host, port=port)
-    except CannotStartError as error:
-        print(error, file=sys.stderr)
-        return 1
+    serve(settings, host=options.host or settings.host, port=port)
     return 0
 
 
@@ -153,8 +154,10 @@ def _worker(settings: Settings, options: argparse.Namespace) -> int:
 
     launch()
     from service.jobs.queue_worker import work
+    from service.logs import configure
     from service.store.migrate import migrate
 
+    configure(settings.log_format, settings.log_level)
     said = f"cqltl works on {', '.join(options.queues)}"
     migrate(settings.url)
     asyncio.run(work(settings, options.queues, lambda: print(said, flush=True)))
@@ -163,6 +166,16 @@ def _worker(settings: Settings, options: argparse.Namespace) -> int:
 
 def _keys(settings: Settings, options: argparse.Namespace) -> int:
     return keys(settings, options)
+
+
+def _doctor(settings: Settings, _options: argparse.Namespace) -> int:
+    from service.doctor import examine
+
+    levels = []
+    for finding in examine(settings):
+        print(finding.line, flush=True)
+        levels.append(finding.level)
+    return 1 if "wrong" in levels else 0
 
 
 def _request(settings: Settings, options: argparse.Namespace) -> int:

@@ -19,13 +19,28 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from models.language import part_of_speech
 from models.world import load_environment, toys_spec
-from service.http import environments, explanations, health, jobs, language, page, plans, policies, templates
+from service.errors import CannotStartError, WorkerDiedError
+from service.http import (
+    environments,
+    explanations,
+    health,
+    jobs,
+    language,
+    monitoring,
+    page,
+    plans,
+    policies,
+    templates,
+)
+from service.http.edge import Edge
 from service.http.gate import Gate, cors
 from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
+from service.http.scopes import UNLIMITED, first_part
 from service.jobs import EmbeddedExecutor, Executor
 from service.keys import KeyRing
+from service.metrics import Metrics
 from service.rates import TokenBuckets
 from service.seeds import seed
 from service.services import Services
@@ -59,9 +74,12 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         license_info={"name": "GPL-3.0-or-later", "identifier": "GPL-3.0-or-later"},
         lifespan=partial(_lifespan, settings, warm),
         separate_input_output_schemas=False,
+        telemetry={"auto_configure": True, "exclude": lambda scope: first_part(scope.get("path", "")) in UNLIMITED},
     )
     app.state.closing = threading.Event()
+    app.state.cannot_start = None
     install(app)
+    metrics = app.state.metrics = Metrics()
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes, depth=settings.max_json_depth)
     app.add_middleware(
@@ -72,7 +90,8 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     )
     if settings.allowed_origins:
         app.add_middleware(CORSMiddleware, **cors(settings.allowed_origins))
-    for module in (language, explanations, templates, environments, plans, jobs, policies, health, page):
+    app.add_middleware(Edge, metrics=metrics)
+    for module in (language, explanations, templates, environments, plans, jobs, policies, health, monitoring, page):
         app.include_router(module.router)
     app.router.routes.append(page.static())
     app.openapi = partial(openapi, app)  # type: ignore[method-assign]
@@ -81,8 +100,15 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
 
 @asynccontextmanager
 async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterator[State]:
+    metrics: Metrics = app.state.metrics
     workers = Workers(
-        planners=settings.workers, max_waiting=settings.max_waiting, memory_bytes=settings.worker_memory_bytes
+        planners=settings.workers,
+        max_waiting=settings.max_waiting,
+        memory_bytes=settings.worker_memory_bytes,
+        ended=metrics.called,
+    )
+    metrics.watch(
+        "cqltl_plans_running", "Planning processes of this service that are at work.", lambda: workers.running
     )
     translators = Translators.shipped()
     store: Store | None = None
@@ -92,7 +118,7 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         await run_sync(migrate, settings.url)
         await run_sync(translators.queries, DEFAULT)
         await tasks[0]
-        store = Store(settings.url)
+        store = Store(settings.url, max_bytes=settings.max_store_bytes)
         executor = _executor(settings, store, workers, queue=warm)
         services = Services(
             settings=settings,
@@ -100,14 +126,20 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
             workers=workers,
             jobs=executor,
             translators=translators,
+            metrics=metrics,
             closing=app.state.closing,
         )
-        await seed(services)
+        metrics.watch("cqltl_plans_waiting", "Plans that wait for a process.", executor.waiting)
+        await _seed(services)
         await executor.start(take_up=warm)
         if warm:
             await run_sync(_warm, services)
+            await run_sync(workers.loaded)
             tasks.append(asyncio.create_task(run_sync(_load_the_rest)))
         yield {"services": services}
+    except CannotStartError as error:
+        app.state.cannot_start = error
+        raise
     finally:
         await asyncio.wait(tasks)
         if executor is not None:
@@ -115,6 +147,14 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         await run_sync(workers.stop)
         if store is not None:
             store.close()
+
+
+async def _seed(services: Services) -> None:
+    try:
+        await seed(services)
+    except WorkerDiedError:
+        await run_sync(services.workers.loaded)  # says why, if it is that none could be started
+        raise
 
 
 def _executor(settings: Settings, store: Store, workers: Workers, *, queue: bool) -> Executor:

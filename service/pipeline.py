@@ -94,6 +94,21 @@ def translate(
     Raises:
         AnswerError: an answer is none to the question that is asked.
     """
+    found = _translated(services, text, environment, state, translator, candidates, answers, pointer)
+    services.metrics.translated(translator, found.outcome, found.readings[0].confidence if found.readings else None)
+    return found
+
+
+def _translated(
+    services: Services,
+    text: str,
+    environment: str | None,
+    state: State | None,
+    translator: str,
+    candidates: int,
+    answers: Sequence[Answer],
+    pointer: str,
+) -> Translated:
     world = None if environment is None else _situated(services, environment, state)
     taught = services.known()
     with at(pointer):

@@ -16,6 +16,7 @@ from models.language.hearing import Lessons
 from models.world import Environment, load_environment
 from service.errors import NotReadyError
 from service.jobs import Executor
+from service.metrics import Metrics
 from service.settings import Settings
 from service.store import Store, StoredExample, StoredPolicy
 from service.taught import KnownCache, Taught, TaughtCache, read_example
@@ -52,6 +53,7 @@ class Services:
         workers: Workers,
         jobs: Executor,
         translators: Translators,
+        metrics: Metrics | None = None,
         closing: threading.Event | None = None,
     ) -> None:
         self.settings = settings
@@ -60,6 +62,7 @@ class Services:
         self.jobs = jobs
         self.closing = closing or threading.Event()
         self.translators = translators
+        self.metrics = metrics or Metrics()
         self._taught = TaughtCache()
         self._utterances = KnownCache()
         self._noted = False  # whether what the store has of utterances was taken over

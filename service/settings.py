@@ -5,8 +5,12 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
-from pydantic import Field, SecretStr
+from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import ArgumentError
+
+from service.logs import LogFormat, LogLevel
 
 
 class Settings(BaseSettings):
@@ -48,7 +52,20 @@ class Settings(BaseSettings):
     )
     max_store_bytes: int = Field(0, ge=0, description="Largest size of the SQLite file, in bytes; 0 sets no limit.")
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
+    log_format: LogFormat = Field("text", description="`text` for people, `json` for a line of JSON each.")
+    log_level: LogLevel = Field("warning", description="The least that is logged; `info` has a line for each request.")
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
+
+    @field_validator("database_url")
+    @classmethod
+    def _known_database(cls, value: str) -> str:
+        try:
+            kind = make_url(value).get_backend_name() if value else "sqlite"
+        except ArgumentError as error:
+            raise ValueError("is no SQLAlchemy URL, such as postgresql+psycopg://user:password@host/name") from error
+        if kind not in ("sqlite", "postgresql"):
+            raise ValueError(f"is of {kind}; the store is in SQLite or PostgreSQL")
+        return value
 
     @cached_property
     def url(self) -> str:

@@ -40,7 +40,7 @@ def get_environments(services: ServicesDep, cursor: Cursor = "", limit: Limit = 
     "",
     operation_id="createEnvironment",
     status_code=201,
-    responses=refusals(*BODY, *SLUGS, "invalid-environment", "environment-exists"),
+    responses=refusals(*BODY, *SLUGS, "invalid-environment", "environment-exists", "insufficient-storage"),
 )
 async def post_environment(
     body: EnvironmentSpec, services: ServicesDep, response: Response, idempotency_key: KeyHeader = None

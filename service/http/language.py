@@ -82,6 +82,7 @@ def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResp
         **refusals(
             *BODY,
             *SLUGS,
+            "insufficient-storage",
             "unknown-environment",
             "template-conflict",
             "formula-syntax",

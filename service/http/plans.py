@@ -16,6 +16,7 @@ from service.http.problems import response_of
 from service.http.schemas import JobOut, PlanRequest, PlanResponse
 from service.http.views import answers_in, environment_data, query_in
 from service.jobs import OPERATION
+from service.logs import JOB_ID
 from service.pipeline import PlanOrder, plan
 from service.store import StoredJob
 
@@ -38,6 +39,7 @@ router = APIRouter(tags=["planning"])
         **refusals(
             *BODY,
             *SLUGS,
+            "insufficient-storage",
             *GROUNDING,
             "unknown-environment",
             "unknown-template",
@@ -101,6 +103,7 @@ async def post_plan(
     response.headers.update(headers)
     if not isinstance(found, StoredJob):
         return plan_out(found, time.perf_counter() - started)
+    JOB_ID.set(found.id)
     if found.state == "succeeded":
         return job_plan_out(found)
     if found.state == "failed":

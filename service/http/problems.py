@@ -17,6 +17,7 @@ from starlette.routing import Match
 from models.errors import CqltlError
 from service.http.schemas.problems import ErrorPlace, Problem
 from service.refusals import refusal_data
+from service.store.dialect import is_full
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:cqltl:problem:"
@@ -82,6 +83,7 @@ STATUS: dict[str, int] = {
     "overloaded": 503,
     "worker-died": 503,
     "not-ready": 503,
+    "insufficient-storage": 507,
     "spot-missing": 503,
 }
 """Status of every slug."""
@@ -112,13 +114,12 @@ def problem_response(slug: str, detail: str, **members: Any) -> JSONResponse:
 
 
 def install(app: FastAPI) -> None:
-    """Answer every error with a problem."""
+    """Answer every error with a problem; what is none of these, `service.http.edge` answers."""
     app.add_exception_handler(CqltlError, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(OperationalError, _store_unavailable)
     app.add_exception_handler(DataError, _not_storable)
-    app.add_exception_handler(Exception, _internal)
 
 
 def _refused(_request: Request, error: Exception) -> JSONResponse:
@@ -180,6 +181,10 @@ def _allowed(request: Request) -> list[str]:
 
 
 def _store_unavailable(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, OperationalError)
+    if is_full(error):
+        _log.error("%s %s: the store has no room: %s", request.method, request.url.path, error.orig)
+        return problem_response("insufficient-storage", "the store has no room for this; what it holds can be read")
     _log.warning("%s %s: the store does not answer: %s", request.method, request.url.path, error)
     return problem_response("not-ready", "the store does not answer, or is locked by another writer; try again")
 
@@ -187,8 +192,3 @@ def _store_unavailable(request: Request, error: Exception) -> JSONResponse:
 def _not_storable(_request: Request, _error: Exception) -> JSONResponse:
     """PostgreSQL's texts hold everything but U+0000."""
     return problem_response("validation", "the request has a character that cannot be stored, such as U+0000")
-
-
-def _internal(request: Request, error: Exception) -> JSONResponse:
-    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-    return problem_response("internal", "the service failed on this request; the failure is in its log")

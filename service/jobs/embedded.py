@@ -80,6 +80,10 @@ class EmbeddedExecutor(Executor):
         )
         return job
 
+    def waiting(self) -> int:
+        """Those of this service."""
+        return self._workers.waiting
+
     async def cancel(self, job_id: str) -> StoredJob:
         """End a job, and kill what runs for it at once where that is here."""
         job = await super().cancel(job_id)

@@ -51,6 +51,10 @@ class Executor(ABC):
             CqltlError: what planning refuses, unless the answer is a job.
         """
 
+    @abstractmethod
+    def waiting(self) -> int:
+        """How many plans wait for a process to make them."""
+
     async def cancel(self, job_id: str) -> StoredJob:
         """End a job unless it has ended; raises `UnknownJobError`."""
         return await run_sync(self._cancel, job_id)

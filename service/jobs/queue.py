@@ -100,13 +100,17 @@ class QueueExecutor(Executor):
             deletion.add_done_callback(self._deletions.discard)
         return job
 
+    def waiting(self) -> int:
+        """Those of all services."""
+        with self._store.read() as transaction:
+            return transaction.jobs.waiting()
+
     def _enqueue(self, transaction: Transaction, job_id: str, queue: str) -> None:
         """A worker hears of it when the transaction is committed."""
         enqueue(transaction, job_id, queue)
 
     def _check_room(self) -> None:
-        with self._store.read() as transaction:
-            waiting = transaction.jobs.waiting()
+        waiting = self.waiting()
         if waiting >= self._settings.max_waiting:
             raise OverloadedError(f"{waiting} requests wait for a worker; try again later")
 

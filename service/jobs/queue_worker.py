@@ -32,10 +32,15 @@ _log = logging.getLogger("cqltl")
 async def work(settings: Settings, queues: Sequence[str], ready: Callable[[], None]) -> None:
     """Run jobs of these queues until SIGTERM or SIGINT; then others get those that have not ended.
 
-    `ready` is called once jobs can be taken. The tables have to be there.
+    `ready` is called once jobs can be taken. The tables have to be there. Raises `CannotStartError`.
     """
     workers = Workers(planners=settings.workers, max_waiting=0, memory_bytes=settings.worker_memory_bytes)
     await run_sync(lambda: workers.start(warm=True))
+    try:
+        await run_sync(workers.loaded)
+    except BaseException:
+        await run_sync(workers.stop)
+        raise
     store = Store(settings.url)
     found = _QueueWorker(settings, store, workers)
     loop = asyncio.get_running_loop()

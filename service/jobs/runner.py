@@ -20,6 +20,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from models.errors import CqltlError
 from service.errors import OutOfTimeError
 from service.jobs.commission import Commission, answer_of, policy_of
+from service.logs import JOB_ID
 from service.refusals import failure_data, refusal_data
 from service.store import Store, StoredJob
 from service.worker import Call, CallCancelled, PlanAnswer, Progress, Workers, run_plan
@@ -125,6 +126,7 @@ class JobRunner:
         task.add_done_callback(self._tasks.discard)
 
     async def _follow(self, job_id: str, followed: _Followed) -> None:
+        JOB_ID.set(job_id)  # of this task, and of what it logs
         try:
             end = await self._end_of(job_id, followed)
             while end is not None and not await self._written(end):

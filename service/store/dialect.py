@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Mapping
 from typing import Any
 
 from sqlalchemy import Connection, Float, Table, func, select
 from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.exc import DBAPIError
 from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.sql.compiler import SQLCompiler
 from sqlalchemy.sql.functions import FunctionElement
@@ -38,6 +40,18 @@ def lock_writers(connection: Connection) -> None:
     """Wait until no other exclusive writer is at work; SQLite has let only one begin."""
     if connection.dialect.name == "postgresql":
         connection.execute(select(func.pg_advisory_xact_lock(WRITERS)))
+
+
+_SQLITE_FULL = {sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_SHMSIZE}
+"""Codes of SQLite where a file cannot grow: on a full disk, by a quota, by its own limit."""
+_POSTGRESQL_FULL = "53100"
+"""`disk_full` of PostgreSQL."""
+
+
+def is_full(error: DBAPIError) -> bool:
+    """The database could not write because there is no room."""
+    code = getattr(error.orig, "sqlite_errorcode", None)
+    return code in _SQLITE_FULL or getattr(error.orig, "sqlstate", None) == _POSTGRESQL_FULL
 
 
 def insert_new(connection: Connection, table: Table, values: Mapping[str, Any]) -> bool:

@@ -61,8 +61,8 @@ class Transaction:
 class Store:
     """Opens transactions on one database."""
 
-    def __init__(self, url: str) -> None:
-        self._engine: Engine = open_engine(url)
+    def __init__(self, url: str, *, max_bytes: int = 0) -> None:
+        self._engine: Engine = open_engine(url, max_bytes=max_bytes)
 
     @contextmanager
     def read(self) -> Iterator[Transaction]:

@@ -26,12 +26,13 @@ class Call(Generic[T]):
     def __init__(self, function: Callable[[A], T], argument: A, timeout_s: float) -> None:
         self.future: Future[T] = Future()
         self.cancelled = False
-        self._function: Callable[[Any], T] = function
+        self.function: Callable[[Any], T] = function
         self._argument: Any = argument
         self._timeout_s = timeout_s
         self._lock = threading.Lock()
         self._child: Child | None = None
         self._started_at: float | None = None
+        self._ended_at: float | None = None
 
     @property
     def started(self) -> bool:
@@ -45,6 +46,12 @@ class Call(Generic[T]):
             if self._child is None or self._started_at is None:
                 return None
             return read(self._child.board, time.monotonic() - self._started_at)
+
+    @property
+    def seconds(self) -> float:
+        """How long it has run, or ran, in the last process that began with it."""
+        began, ended = self._started_at, self._ended_at
+        return 0.0 if began is None else (time.monotonic() if ended is None else ended) - began
 
     def cancel(self) -> None:
         """End it now, with its process; its result is then `CallCancelled`. Nothing happens where it has ended."""
@@ -75,9 +82,10 @@ class Call(Generic[T]):
             self._child = child
         try:
             child.prepare()
-            self._started_at = time.monotonic()
-            found: T = child.call(self._function, self._argument, self._timeout_s)
+            self._started_at, self._ended_at = time.monotonic(), None
+            found: T = child.call(self.function, self._argument, self._timeout_s)
             return found
         finally:
+            self._ended_at = time.monotonic()
             with self._lock:
                 self._child = None

@@ -82,6 +82,7 @@ class PlanAnswer:
     states: int
     product_states: int
     automaton_states: int
+    sweeps: int = 0  # of value iteration; not known of answers that older versions stored
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +147,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         states=found.sizes.states,
         product_states=found.sizes.product_states,
         automaton_states=found.sizes.automaton_states,
+        sweeps=meter.sweeps,
     )
 
 

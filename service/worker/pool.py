@@ -7,11 +7,12 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import Future
 from multiprocessing.context import ForkServerContext
 from queue import SimpleQueue
 from typing import Any, TypeVar
 
-from service.errors import OverloadedError, WorkerDiedError
+from service.errors import CannotStartError, OverloadedError, WorkerDiedError
 from service.forkserver import context
 from service.worker.calls import Call, CallCancelled
 from service.worker.child import Child
@@ -25,6 +26,9 @@ ATTEMPTS = 3
 
 RETRY_S = 0.2
 """Pause after a process could not be started."""
+
+LOAD_S = 120.0
+"""Longest time for a process to load; a machine on which it takes more is of no use."""
 
 _log = logging.getLogger("cqltl")
 
@@ -41,14 +45,21 @@ class Pool:
         self._running: set[Call[Any]] = set()
         self._stopped = False
         self._threads: list[threading.Thread] = []
+        self._loaded: list[Future[None]] = []
+        self._loading: set[Child] = set()
 
     def start(self, *, warm: bool) -> None:
         """Start the threads. Processes start with the first call of each, or now when `warm`."""
-        self._threads = [
-            threading.Thread(target=self._work, args=(warm,), name="cqltl-pool", daemon=True) for _ in range(self._size)
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._loaded = [Future() for _ in range(self._size if warm else 0)]
+        for number in range(self._size):
+            arguments = (self._loaded[number] if warm else None,)
+            self._threads.append(threading.Thread(target=self._work, args=arguments, name="cqltl-pool", daemon=True))
+            self._threads[-1].start()
+
+    def loaded(self) -> None:
+        """Wait until the processes that were started at once can work; raises what kept one of them from it."""
+        for future in self._loaded:
+            future.result(LOAD_S)
 
     def submit(self, call: Call[Any]) -> None:
         """Have it run when a process is free."""
@@ -59,6 +70,8 @@ class Pool:
     def stop(self) -> None:
         """Kill the processes and whatever they do; calls that wait are cancelled."""
         self._stopped = True
+        for child in list(self._loading):
+            child.kill()
         for call in list(self._running):
             call.cancel()
         for _ in self._threads:
@@ -66,8 +79,8 @@ class Pool:
         for thread in self._threads:
             thread.join()
 
-    def _work(self, warm: bool) -> None:
-        child = self._replaced(None) if warm else None
+    def _work(self, loaded: Future[None] | None) -> None:
+        child = None if loaded is None else self._first(loaded)
         while (call := self._calls.get()) is not None:
             if self._stopped:
                 call.cancel()
@@ -78,6 +91,22 @@ class Pool:
             self._running.discard(call)
         if child is not None:
             child.close()
+
+    def _first(self, loaded: Future[None]) -> Child | None:
+        """A process that can work; None where it cannot be had, and why is the result of `loaded`."""
+        child: Child | None = None
+        try:
+            child = Child(self._context, self._initializer, self._memory_bytes)
+            self._loading.add(child)
+            if self._stopped:
+                child.kill()
+            child.prepare()
+            loaded.set_result(None)
+        except Exception as error:  # whatever it is, somebody waits to be told
+            loaded.set_exception(error)
+        finally:
+            self._loading.discard(child)
+        return child
 
     def _run(self, call: Call[Any], child: Child | None) -> Child | None:
         """Run the call to its end; the process for the next one, None where none could be started."""
@@ -106,7 +135,7 @@ class Pool:
             child.close()
         try:
             return None if self._stopped else Child(self._context, self._initializer, self._memory_bytes)
-        except (OSError, EOFError) as error:  # also where the fork server was killed; the next try starts a new one
+        except Exception as error:  # the fork server was killed, the system has no more processes; the next try may do
             _log.warning("no worker process could be started: %r", error)
             time.sleep(RETRY_S)
             return None
@@ -118,8 +147,17 @@ class Workers:
     Formula checks have a pool of their own, so that `/learn` never waits behind a long plan.
     """
 
-    def __init__(self, *, planners: int, max_waiting: int, memory_bytes: int = 0) -> None:
+    def __init__(
+        self,
+        *,
+        planners: int,
+        max_waiting: int,
+        memory_bytes: int = 0,
+        ended: Callable[[Call[Any]], None] | None = None,
+    ) -> None:
+        """`ended` is told of every call that has."""
         found = context()
+        self._told = ended
         self.planners = planners
         self._most = planners + max_waiting
         self._pools = {
@@ -133,6 +171,15 @@ class Workers:
         """Open the pools; processes start with the first call, or now and with everything loaded when `warm`."""
         for pool in self._pools.values():
             pool.start(warm=warm)
+
+    def loaded(self) -> None:
+        """Wait until the processes that were started at once can work; raises `CannotStartError`."""
+        for pool in self._pools.values():
+            try:
+                pool.loaded()
+            except Exception as error:
+                said = str(error).partition("\n")[0] or type(error).__name__
+                raise CannotStartError(f"the worker processes cannot be started: {said}") from error
 
     def stop(self) -> None:
         """Kill the processes and whatever they do."""
@@ -170,6 +217,16 @@ class Workers:
         """Planning processes that have nothing to do."""
         return max(0, self.planners - self._pending["plan"])
 
+    @property
+    def running(self) -> int:
+        """Planning processes that are at work."""
+        return min(self.planners, self._pending["plan"])
+
+    @property
+    def waiting(self) -> int:
+        """Calls that wait for a planning process."""
+        return max(0, self._pending["plan"] - self.planners)
+
     def _begin(
         self, name: str, function: Callable[[A], T], argument: A, timeout_s: float, *, always: bool = False
     ) -> Call[T]:
@@ -178,7 +235,7 @@ class Workers:
             if not always:
                 self._check_room(name)
             self._pending[name] += 1
-        call.future.add_done_callback(lambda _: self._ended(name))
+        call.future.add_done_callback(lambda _: self._ended(name, call))
         try:
             self._pools[name].submit(call)
         except BaseException:
@@ -190,9 +247,11 @@ class Workers:
         if self._pending[name] >= self._most:
             raise OverloadedError(f"{self._pending[name]} requests wait for a worker; try again later")
 
-    def _ended(self, name: str) -> None:
+    def _ended(self, name: str, call: Call[Any]) -> None:
         with self._lock:
             self._pending[name] -= 1
+        if self._told is not None:
+            self._told(call)
 
 
 async def _finished(call: Call[T]) -> T:

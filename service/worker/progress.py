@@ -15,6 +15,9 @@ from dataclasses import dataclass
 STAGES = ("compile", "graph", "rounds", "probability", "steps", "evaluate")
 """The stages of planning, `models.planning.options.Stage`, as they are numbered on the board."""
 
+ITERATING = ("rounds", "probability", "steps")
+"""Those that sweep over values until they settle."""
+
 SIZE = 8
 """Numbers on a board."""
 
@@ -77,11 +80,14 @@ class Meter:
         self._board, self._clock, self._ends = board, clock, ends or {}
         self._stage, self._sweep, self._next, self._count = "", 0, -math.inf, 0
         self._told: deque[tuple[float, int]] = deque(maxlen=WINDOW)  # time, sweep
+        self.sweeps = 0
+        """Sweeps of value iteration so far, those of all stages that iterate."""
 
     def __call__(
         self, stage: str, sweep: int, lower: float, upper: float, states: int, left: float = math.nan, /
     ) -> None:
         """Report a sweep."""
+        self.sweeps += stage in ITERATING
         now = self._clock()
         same = stage == self._stage
         if not same or sweep < self._sweep:  # an iteration begins

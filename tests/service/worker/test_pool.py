@@ -14,7 +14,7 @@ import pytest
 
 from models.errors import Place
 from models.logic import FormulaSyntaxError
-from service.errors import OutOfMemoryError, OutOfTimeError, OverloadedError, WorkerDiedError
+from service.errors import CannotStartError, OutOfMemoryError, OutOfTimeError, OverloadedError, WorkerDiedError
 from service.worker import CallCancelled, Workers
 from service.worker.child import board
 from service.worker.progress import Meter
@@ -203,3 +203,49 @@ def test_stopping_ends_whatever_runs_or_waits() -> None:
         return await asyncio.gather(*calls, return_exceptions=True)
 
     assert [type(outcome) for outcome in run(stopped())] == [CallCancelled, CallCancelled]
+
+
+def fail() -> None:
+    raise RuntimeError("nothing to load")
+
+
+def refuse_to_start(*arguments: Any) -> None:
+    raise RuntimeError("no room for a process")
+
+
+@pytest.fixture
+def broken(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Iterator[Workers]:
+    """Workers whose processes cannot be made, or end while they load."""
+    if request.param == "made":
+        monkeypatch.setattr("service.worker.pool.Child", refuse_to_start)
+    else:
+        monkeypatch.setattr("service.worker.pool.warm_planning", fail)
+    found = Workers(planners=2, max_waiting=2)
+    yield found
+    found.stop()
+
+
+@pytest.mark.parametrize(
+    ("broken", "said"), [("made", "no room for a process"), ("loaded", "died")], indirect=["broken"]
+)
+def test_processes_that_cannot_be_started_are_told_of_and_nobody_waits(broken: Workers, said: str) -> None:
+    broken.start(warm=True)
+    with pytest.raises(CannotStartError, match=said) as caught:
+        broken.loaded()
+    assert "\n" not in str(caught.value)
+    with pytest.raises(WorkerDiedError):
+        run(broken.plan(double, 1, timeout_s=30))
+
+
+def test_stopping_does_not_wait_for_what_loads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("service.worker.pool.warm_planning", linger)
+    found = Workers(planners=1, max_waiting=2)
+    found.start(warm=True)
+    time.sleep(0.5)
+    began = time.monotonic()
+    found.stop()
+    assert time.monotonic() - began < 5
+
+
+def linger() -> None:
+    time.sleep(60)

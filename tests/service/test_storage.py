@@ -1,0 +1,115 @@
+"""A disk that is full, and stores that the service refuses to start on."""
+
+from __future__ import annotations
+
+import resource
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from benchmarks.server import address, serving, started
+from models.world import toys_spec
+from tests.service.conftest import check_problem, run_cli
+
+STORE = "cqltl.sqlite3"
+
+
+def world(number: int) -> dict[str, Any]:
+    """An environment of some 5 kB; no two are the same."""
+    spec = toys_spec(columns=2, rows=1, toys=[("cube", "red")])
+    cube = {**spec["objects"]["cube"], "synonyms": [f"thing {number} {i} {'x' * 80}" for i in range(50)]}
+    return {**spec, "name": f"w{number}", "objects": {**spec["objects"], "cube": cube}}
+
+
+def fill(url: str | httpx.URL, most: int = 2_000) -> tuple[int, httpx.Response]:
+    """Store worlds until one is refused: how many were stored, and the refusal."""
+    for number in range(most):
+        response = httpx.post(f"{url}/environments", json=world(number), timeout=60)
+        if response.status_code != 201:
+            return number, response
+    raise AssertionError("it never was full")
+
+
+def check_full(url: str, stored: int, refusal: httpx.Response) -> None:
+    """Reads go on, every write is refused as such, and what was acknowledged is there."""
+    check_problem(refusal, "insufficient-storage", 507)
+    plan = {"ltl": "F holding(cube)", "environment": "w0"}
+    for path, body in (("/environments", world(99_999)), ("/plan", plan)):
+        check_problem(httpx.post(url + path, json=body, timeout=60), "insufficient-storage", 507)
+    assert httpx.get(f"{url}/environments/w{stored - 1}").json()["name"] == f"w{stored - 1}"
+    assert httpx.get(f"{url}/environments/w{stored}").status_code == 404
+    for path in ("/readyz", "/livez", "/templates/ship", "/jobs"):
+        assert httpx.get(url + path).status_code == 200
+    said = httpx.post(f"{url}/translate", json={"text": "Pickup the sphere", "environment": "toys"})
+    assert said.json()["outcome"] == "translated"
+
+
+def whole(folder: Path) -> bool:
+    connection = sqlite3.connect(folder / STORE)
+    try:
+        return bool(connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)])
+    finally:
+        connection.close()
+
+
+def test_the_largest_size_of_the_store(tmp_path: Path) -> None:
+    most = 700_000
+    with serving(tmp_path, CQLTL_MAX_STORE_BYTES=str(most)) as client:
+        url = str(client.base_url)
+        stored, refusal = fill(url)
+        check_full(url, stored, refusal)
+        for number in range(stored):
+            assert client.delete(f"/environments/w{number}").status_code == 204
+        assert client.post("/environments", json=world(0)).status_code == 201
+        assert client.post("/plan", json={"ltl": "F holding(cube)", "environment": "w0"}).status_code == 200
+    assert (tmp_path / STORE).stat().st_size <= most
+    assert whole(tmp_path)
+
+
+def test_a_disk_that_is_full_and_then_is_not(tmp_path: Path) -> None:
+    """As the system says it: no file of the process can grow any more."""
+    with started(tmp_path) as process:
+        url = address(process)
+        _, hard = resource.prlimit(process.pid, resource.RLIMIT_FSIZE)
+        size = max(path.stat().st_size for path in tmp_path.iterdir())
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (size + 50_000, hard))
+        stored, refusal = fill(url)
+        check_full(url, stored, refusal)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (hard, hard))
+        assert httpx.post(f"{url}/environments", json=world(stored), timeout=60).status_code == 201
+        plan = httpx.post(f"{url}/plan", json={"ltl": "F holding(cube)", "environment": f"w{stored}"}, timeout=60)
+        assert plan.status_code == 200
+        process.kill()
+    with serving(tmp_path) as client:
+        names = {item["name"] for item in client.get("/environments", params={"limit": 200}).json()["items"]}
+        assert {f"w{number}" for number in range(min(stored + 1, 100))} <= names
+    assert whole(tmp_path)
+
+
+@pytest.mark.parametrize("command", [["serve", "--port", "0"], ["translate", "Pickup the sphere"]])
+def test_a_store_of_something_else_is_not_started_on(tmp_path: Path, command: list[str]) -> None:
+    path = tmp_path / STORE
+    path.write_bytes(b"the diary of a robot\n" * 500)
+    before = path.read_bytes()
+    result = run_cli(*command, data=tmp_path)
+    assert result.returncode == 1
+    assert result.stdout == ""
+    assert result.stderr == f"{path} is not a SQLite database; it was left as it is\n"
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_store_that_was_truncated_is_not_started_on(tmp_path: Path) -> None:
+    with serving(tmp_path) as client:
+        assert client.get("/readyz").status_code == 200
+    path = tmp_path / STORE
+    content = path.read_bytes()[:40_000]
+    path.write_bytes(content)
+    result = run_cli("serve", "--port", "0", data=tmp_path)
+    assert result.returncode == 1
+    assert result.stderr.count("\n") == 1
+    assert f"{path} is damaged" in result.stderr
+    assert path.read_bytes() == content
