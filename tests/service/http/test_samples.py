@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import httpx
 import pytest
 
+from benchmarks.server import serving
 from models.world import builtin_environments
 from tests.service.conftest import plan
 
 WORLDS = dict(builtin_environments())
 SAMPLES = [(name, text) for name, data in WORLDS.items() for text in data["samples"]]
 LESSONS = [(name, lesson) for name, data in WORLDS.items() for lesson in data["lessons"]]
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[httpx.Client]:
+    """A server of its own, which knows nothing but what comes with it."""
+    with serving() as found:
+        yield found
 
 
 def test_every_world_has_five_samples_and_a_lesson_which_are_listed(client: httpx.Client) -> None:
