@@ -15,10 +15,12 @@ from prometheus_client import (
     ProcessCollector,
     disable_created_metrics,
     generate_latest,
+    start_http_server,
 )
 
 from models.errors import CqltlError
-from service.worker import Call, CallCancelled, PlanAnswer, run_plan
+from service.errors import CannotStartError
+from service.worker import Call, CallCancelled, PlanAnswer, Workers, run_plan
 
 disable_created_metrics()  # type: ignore[no-untyped-call]  # a time for each series, which nobody asked for
 
@@ -94,6 +96,24 @@ class Metrics:
                 return math.nan
 
         Gauge(name, meaning, registry=self._registry).set_function(asked)
+
+    def watch_workers(self, workers: Workers) -> None:
+        """Say how many plan."""
+        self.watch("cqltl_plans_running", "Planning processes at work.", lambda: workers.running)
+
+    def serve(self, host: str, port: int) -> Callable[[], None]:
+        """Answer Prometheus on a port of their own, in a thread; what ends that. Raises `CannotStartError`."""
+        try:
+            server, thread = start_http_server(port, addr=host, registry=self._registry)
+        except OSError as error:
+            raise CannotStartError(f"cannot listen on {host} port {port} ({error.strerror or error})") from error
+
+        def stop() -> None:
+            server.shutdown()
+            server.server_close()
+            thread.join()
+
+        return stop
 
     def text(self) -> bytes:
         """Everything in Prometheus's text format."""

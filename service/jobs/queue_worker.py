@@ -16,6 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from service.jobs.queue import SWEEP_S, TASK, conninfo, enqueue, sweep
 from service.jobs.runner import JobRunner
+from service.metrics import Metrics
 from service.settings import Settings
 from service.store import Store, StoredJob
 from service.worker import Workers
@@ -34,10 +35,16 @@ async def work(settings: Settings, queues: Sequence[str], ready: Callable[[], No
 
     `ready` is called once jobs can be taken. The tables have to be there. Raises `CannotStartError`.
     """
-    workers = Workers(planners=settings.workers, max_waiting=0, memory_bytes=settings.worker_memory_bytes)
+    metrics = Metrics()
+    port, stop_metrics = settings.worker_metrics_port, None
+    workers = Workers(
+        planners=settings.workers, max_waiting=0, memory_bytes=settings.worker_memory_bytes, ended=metrics.called
+    )
+    metrics.watch_workers(workers)
     await run_sync(lambda: workers.start(warm=True))
     try:
         await run_sync(workers.loaded)
+        stop_metrics = metrics.serve(settings.host, port) if port else None
     except BaseException:
         await run_sync(workers.stop)
         raise
@@ -53,6 +60,8 @@ async def work(settings: Settings, queues: Sequence[str], ready: Callable[[], No
     finally:
         await found.stop()
         await run_sync(workers.stop)
+        if stop_metrics is not None:
+            await run_sync(stop_metrics)
         store.close()
 
 
