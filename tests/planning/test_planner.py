@@ -35,7 +35,7 @@ def test_an_exception_from_progress_cancels() -> None:
     class StopError(Exception):
         pass
 
-    def stop(stage: str, sweep: int, lower: float, upper: float, states: int) -> None:
+    def stop(stage: str, sweep: int, lower: float, upper: float, states: int, left: float = 0) -> None:
         if stage == "probability" and sweep == 3:
             raise StopError
 

@@ -13,6 +13,7 @@ from prometheus_client.parser import text_string_to_metric_families
 
 from benchmarks.server import serving
 from service.metrics import Metrics
+from tests.service.jobs.deployments import ENDLESS
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -56,9 +57,8 @@ def test_what_was_done_is_counted(server: httpx.Client) -> None:
 
 
 def test_the_queue_is_seen(server: httpx.Client) -> None:
-    slow = {"ltl": "G F in(cylinder, box) & G F !in(cylinder, box) & G F holding(sphere)", "environment": "toys"}
     headers = {"Prefer": "respond-async"}
-    jobs = [server.post("/plan", json=slow, headers=headers).json()["url"] for _ in range(9)]
+    jobs = [server.post("/plan", json=ENDLESS, headers=headers).json()["url"] for _ in range(9)]
     depths = []
     until = time.monotonic() + 60
     while time.monotonic() < until and not any(running and waiting for running, waiting in depths):

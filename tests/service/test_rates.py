@@ -52,5 +52,7 @@ def test_never_more_than_the_burst_and_the_rate_and_waiting_as_told_helps(
         wait = buckets.take("a")
         taken += wait == 0
         assert taken <= burst + (clock.now - Clock.now) * rate + 1e-6
-    clock.now += buckets.take("a") + 1e-6
-    assert buckets.take("a") == 0 or burst == 1
+    wait = buckets.take("a")
+    if wait:
+        clock.now += wait + 1e-6
+        assert buckets.take("a") == 0

@@ -122,7 +122,8 @@ class Matcher:
         command = Command.of(self.model.network, vectors)
         free = _free(len(utterance.words), [span for spans in utterance.mentions for span in spans])
         roles = self._roles(vectors, [spans[0] for spans in utterance.mentions])
-        return Known(command.words[free], command.weights(free), roles)
+        parts = (command.words[free], command.weights(free), roles)
+        return Known(*(part.astype("<f2").astype(np.float32) for part in parts))  # as it will be read from a store
 
     def match(
         self,

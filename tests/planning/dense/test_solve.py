@@ -250,7 +250,7 @@ class StopError(Exception):
 def test_an_exception_from_progress_cancels(rooms: OomdpWorld, stage: str) -> None:
     heard: list[str] = []
 
-    def stop(name: str, sweep: int, _lower: float, _upper: float, _states: int) -> None:
+    def stop(name: str, sweep: int, _lower: float, _upper: float, _states: int, _left: float = 0) -> None:
         heard.append(name)
         if name == stage and sweep == 2:
             raise StopError
