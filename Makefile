@@ -9,7 +9,7 @@ serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 import spot
-from pebble import ProcessPool
+from pebble import ProcessExpired, ProcessPool
 
 from models.logic import parse
 from models.planning import Options, Plan, check, plan
@@ -93,7 +93,7 @@ def storm() -> Iterator[ProcessPool]:
 
 
 def agree(storm: ProcessPool, seed: int, file: Path) -> bool | None:
-    """Compare one MDP; returns whether its value lies strictly between 0 and 1, None where Storm does not end."""
+    """Compare one MDP; returns whether its value lies strictly between 0 and 1, None where Storm does not end, or crashes."""
     pick = random.Random(seed)
     ours, plain, atoms = random_formula(seed, pick)
     world = random_mdp(pick, atoms)
@@ -104,7 +104,7 @@ def agree(storm: ProcessPool, seed: int, file: Path) -> bool | None:
         try:
             asked = (file, plain, objective, world.initial)
             value = storm.schedule(storm_value, args=asked, timeout=STORM_S).result()
-        except TimeoutError:
+        except (TimeoutError, ProcessExpired):
             return None
         except RuntimeError as error:
             if "acc-name" not in str(error):  # a few automata are beyond Storm's reader

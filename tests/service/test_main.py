@@ -30,7 +30,10 @@ def test_the_whole_path_without_a_server(tmp_path: Path) -> None:
 def test_the_same_against_a_server(client: httpx.Client, tmp_path: Path) -> None:
     server = ["--server", str(client.base_url)]
     here = run_cli("translate", SHIP, "--environment", "toys", data=tmp_path / "local")
-    there = run_cli("translate", SHIP, "--environment", "toys", *server, data=tmp_path / "unused")
+    with serving() as new:  # one that nothing was taught
+        there = run_cli(
+            "translate", SHIP, "--environment", "toys", "--server", str(new.base_url), data=tmp_path / "unused"
+        )
     assert here.stdout == there.stdout
     learned = run_cli(
         "learn",

@@ -176,7 +176,7 @@ def test_the_server_answers_while_it_plans(client: httpx.Client) -> None:
     body = {
         "ltl": "G F in(cylinder, box) & G F !in(cylinder, box) & G F holding(sphere)",
         "environment": "toys",
-        "options": {"timeout_s": 20},
+        "options": {"timeout_s": 20, "relevance": False},
     }
     with concurrent.futures.ThreadPoolExecutor() as pool:
         plans = [pool.submit(client.post, "/plan", json=body) for _ in range(4)]

@@ -30,8 +30,8 @@ def task(columns: int, rows: int, **options: Any) -> dict[str, Any]:
 
 
 QUICK = task(2, 1)
-SLOW = task(5, 4)  # some 3 seconds
-ENDLESS = task(6, 6)  # some 20 seconds: the tests do not wait for it
+SLOW = task(6, 4)  # some 2 seconds
+ENDLESS = task(7, 6)  # some 15 seconds: the tests do not wait for it
 
 
 class Deployment(ABC):
