@@ -93,7 +93,7 @@ def storm() -> Iterator[ProcessPool]:
 
 
 def agree(storm: ProcessPool, seed: int, file: Path) -> bool | None:
-    """Compare one MDP; returns whether its value lies strictly between 0 and 1, None where Storm does not end, or crashes."""
+    """Compare one MDP; whether its value lies strictly between 0 and 1, None where Storm does not end or crashes."""
     pick = random.Random(seed)
     ours, plain, atoms = random_formula(seed, pick)
     world = random_mdp(pick, atoms)
