@@ -17,7 +17,7 @@ from service.logs import configure
 from service.settings import Settings
 
 _TRY = """
-cqltl serves {url}  (documentation: {url}/docs; store: {store}). Try:
+cqltl serves {url}  (open it in a browser; documentation: {url}/docs; store: {store}). Try:
 
   curl --json '{{"text": "Put the cylinder in the box, then put the box in the bedroom", "environment": "toys"}}' \\
     {url}/translate

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -93,8 +93,8 @@ class ComposedTranslator:
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
-            alone = not _outvoted(understood(whole), _several(shapes))
-            if (_in_one_clause(whole[0].query) and alone) or _in_sequence(shapes) >= ALONE:
+            alone = not _outvoted(understood(whole), _part(shapes, _several))
+            if (_in_one_clause(whole[0].query) and alone) or _part(shapes, _plain) >= ALONE:
                 return whole[:candidates]
         return _ranked(self._weighed(whole, shapes, understand), refusal, candidates)
 
@@ -104,7 +104,7 @@ class ComposedTranslator:
         if not any(not is_mark(word) for word in spoken):
             return ()
         shapes, refusal = self._shapes(spoken)
-        found = self._weighed((), [shape for shape in shapes if shape[0] != SINGLE], _Clauses(self.single, self.taught))
+        found = self._weighed((), [shape for shape in shapes if _several(shape[0])], _Clauses(self.single, self.taught))
         return _ranked(found, refusal, candidates)
 
     def _weighed(
@@ -223,15 +223,19 @@ def _in_one_clause(query: Query) -> bool:
     return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
 
 
-def _several(shapes: Sequence[_Shape]) -> float:
-    """The part of the shapes by probability that have more than one clause."""
-    return sum(share for shape, _, _, share in shapes if shape != SINGLE) / (sum(s for *_, s in shapes) or 1.0)
+def _several(shape: str) -> bool:
+    """Whether a shape has more than one clause."""
+    return shape != SINGLE
 
 
-def _in_sequence(shapes: Sequence[_Shape]) -> float:
-    """The part of the shapes by probability that are one clause, or clauses one after the other and nothing else."""
-    plain = [share for shape, _, _, share in shapes if shape == SINGLE or _PLAIN_SEQUENCE.fullmatch(shape)]
-    return sum(plain) / (sum(share for *_, share in shapes) or 1.0)
+def _plain(shape: str) -> bool:
+    """Whether a shape is one clause, or clauses one after the other and nothing else."""
+    return not _several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None
+
+
+def _part(shapes: Sequence[_Shape], fits: Callable[[str], bool]) -> float:
+    """The part of the shapes that fit, by probability."""
+    return sum(share for shape, *_, share in shapes if fits(shape)) / (sum(share for *_, share in shapes) or 1.0)
 
 
 def _unmarked(spoken: Sequence[str]) -> tuple[str, ...]:
