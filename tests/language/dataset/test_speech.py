@@ -16,8 +16,11 @@ from models.language.translation import NEGATIONS
 
 EXAMPLES = [*generate("manipulation").seen[::97], *generate("navigation").seen[::97]]
 NOT_IMPERATIVE = {
-    *("after", "before", "can", "could", "first", "i", "let", "let's", "of", "on", "once", "please", "the", "there"),
-    *("to", "when", "with", "would", "you", "your"),
+    *("a", "after", "as", "away", "back", "because", "before", "beside", "by", "can", "closer"),
+    *("could", "do", "first", "having", "how", "i", "in", "inside", "into", "it", "kindly", "let"),
+    *("let's", "near", "nearer", "next", "of", "off", "on", "once", "onward", "over", "please"),
+    *("right", "shall", "since", "so", "somebody", "someone", "straight", "that", "the", "then"),
+    *("there", "they", "to", "up", "via", "we", "what", "when", "with", "would", "you", "your"),
 }
 """First words of wordings that ask, state or begin with when and where."""
 
