@@ -36,7 +36,7 @@ from models.language.spans.tags import Span
 from models.language.tokens import words
 from models.language.translation import NEGATIONS
 
-COMMANDS, REFUSALS = 400, 2000
+COMMANDS, REFUSALS = 600, 2500
 """Texts of each task class and of none in an epoch; T has 23 of navigate_one and 458 of navigate_three."""
 OTHER_JOBS = 400
 """Clauses in an epoch that are none of the task classes: "mop the floor"."""
