@@ -16,6 +16,7 @@ from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, ran
 from models.language.teaching import TaughtTranslator
 from models.language.tokens import words
 from models.language.translation import BEAM_WIDTH, Translation, Translator, weighed
+from models.language.trimming import trimmed
 from models.queries import ContextualQuery, Template
 from models.world import Environment, mentions
 
@@ -129,9 +130,13 @@ class Hearing:
             near = lessons.near(text, candidates=MATCHED, environment=environment)
             heard = weighed([parted(translation, heard) for translation in near], heard)
         ranked = self._ranked(text, heard, environment)
-        if isinstance(translator, ComposedTranslator) and _senseless(ranked, environment):
-            several = self._ranked(text, translator.several(text, candidates=wanted), environment)
-            ranked = ranked if _senseless(several, environment) else several
+        if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
+            other_ways: list[Callable[[], Sequence[Translation]]] = [
+                lambda: trimmed(heard, environment, translator.saying),
+                lambda: translator.several(text, candidates=wanted),
+            ]
+            others = (self._ranked(text, way(), environment) for way in other_ways)
+            ranked = next((found for found in others if not _senseless(found)), ranked)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         return merged(taught, ranked)[:candidates]
 
@@ -141,9 +146,9 @@ class Hearing:
         return rank(text, translations, template_of=self.template_of, environment=environment)
 
 
-def _senseless(readings: Sequence[Reading], environment: Environment | None) -> bool:
+def _senseless(readings: Sequence[Reading]) -> bool:
     """Whether a text that is understood, if at all, means nothing in the environment."""
-    return environment is not None and all(reading.weight <= SENSELESS for reading in readings)
+    return all(reading.weight <= SENSELESS for reading in readings)
 
 
 def parted(near: Translation, heard: Sequence[Translation]) -> Translation:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from models.errors import CqltlError, Place
+from models.language.kinds import strangers
 from models.language.tagging import part_of_speech
 from models.language.tokens import find, words
 from models.language.translation import Translation
@@ -42,6 +43,8 @@ MISSPELT = 0.3
 """Factor for a reading that makes sense only when a word is taken for misspelt: what is said exactly is likelier."""
 UNSAID = 0.3
 """Factor for each thing of the environment that the text names and the reading leaves out."""
+STRANGE = 0.1
+"""Factor for each thing of another kind than a task was taught with, where another task was taught with that kind."""
 SENSELESS = 1e-4
 """Weight of one that means nothing in the environment. Not 0: people do ask for what is not there."""
 
@@ -54,7 +57,8 @@ class Reading:
 
     `grounded` is what it means in the environment and `refusal` why it means nothing there; both are None without an
     environment, unless the query has the wrong number of arguments. `senseless` is how many of its tasks mean nothing,
-    `unsaid` how many things that the text names there it leaves out.
+    `unsaid` how many things that the text names there it leaves out, `strange` how many are of a kind that another task
+    was taught with (`models.language.kinds`).
     """
 
     query: Query
@@ -63,11 +67,14 @@ class Reading:
     refusal: CqltlError | None = None
     senseless: int = 1
     unsaid: int = 0
+    strange: int = 0
 
     @property
     def likelihood(self) -> float:
-        """How much likelier than others the environment makes it: by its sense, and by how much of the text it says."""
-        return self.weight * UNSAID**self.unsaid
+        """How much likelier than others the environment makes it: by its sense, by how much of the text it says, and by
+        the kinds of the things that it is about.
+        """
+        return self.weight * UNSAID**self.unsaid * STRANGE**self.strange
 
     @property
     def weight(self) -> float:
@@ -133,7 +140,8 @@ def read(
         if templates is not None:
             found = _read(text, translation, templates, environment)
             readings.append(replace(found, unsaid=_unsaid(translation.query, named)))
-    return tuple(readings)
+    strange = strangers([reading.grounded for reading in readings], template_of)
+    return tuple(replace(reading, strange=count) for reading, count in zip(readings, strange, strict=True))
 
 
 def rank_formulas(

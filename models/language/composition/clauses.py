@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import islice, product
 from typing import Protocol
 
+from models.language.composition.shapes import ONE_CLAUSE
 from models.language.teaching.utterance import DETERMINERS
 from models.language.tokens import find, is_mark
 from models.language.translation import Translation
@@ -39,11 +40,14 @@ MOST = 12
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """One clause: its number in the shape, its words, and whether it is avoided or awaited."""
+    """One clause: its number in the shape, its words, whether it is avoided or awaited, and whether it is a task that
+    is said in several clauses.
+    """
 
     number: int
     words: tuple[str, ...]
     forbidden: bool
+    several: bool = False
 
 
 def readings(
@@ -53,7 +57,7 @@ def readings(
     clause. None where a clause cannot be understood. `before` are the words in front of the first clause.
     """
     understand.prepare(" ".join(clause.words) for clause in clauses)
-    spoken = {clause.number: understand(" ".join(clause.words)) for clause in clauses}
+    spoken = {clause.number: _spoken(clause, understand) for clause in clauses}
     whole = {clause.number for clause in clauses if not is_bare(clause.words, spoken[clause.number])}
     texts = {
         clause.number: _completions(clause, _donor(clauses, place, whole), spoken, before)
@@ -70,9 +74,16 @@ def readings(
     combined = islice(product(*options), 4 * MOST)
     ranked = sorted(combined, key=lambda chosen: -_product(chosen))[:MOST]
     for chosen in ranked:
-        numbered = [(clause.number, found) for clause, found in zip(clauses, chosen, strict=True)]
-        for queries, share in _resolved(numbered):
+        for queries, share in _resolved(list(zip(clauses, chosen, strict=True))):
             yield queries, _product(chosen) * share
+
+
+def _spoken(clause: Clause, understand: Understand) -> Sequence[Translation]:
+    """What a clause may say by itself."""
+    said = understand(" ".join(clause.words))
+    if not clause.several:
+        return said
+    return [one for one in said if not any(task.task in ONE_CLAUSE for _, task in one.query.tasks)]
 
 
 def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
@@ -137,18 +148,22 @@ def _carried(donor: Sequence[str], said: Translation, words: Sequence[str]) -> s
     return " ".join((*donor[:begin], *words, *donor[end:]))
 
 
-def _resolved(chosen: Sequence[tuple[int, Translation]]) -> Iterator[tuple[dict[int, ContextualQuery], float]]:
+def _resolved(chosen: Sequence[tuple[Clause, Translation]]) -> Iterator[tuple[dict[int, ContextualQuery], float]]:
     """The queries by number, with what pronouns stand for; the likeliest first."""
     options: list[tuple[dict[int, ContextualQuery], float, tuple[str, ...], tuple[str, ...]]] = [({}, 1.0, (), ())]
-    for number, translation in chosen:
+    for clause, translation in chosen:
         query = translation.query
         assert isinstance(query, ContextualQuery)
         grown = []
         for queries, share, things, places in options:
             for arguments, part in _replaced(query.arguments, things, places):
                 made = ContextualQuery(query.task, arguments)
-                named = [a for a in arguments if a not in things]
-                grown.append(({**queries, number: made}, share * part, (*named[:1], *things), (*named[::-1], *places)))
+                focus, named = arguments[:1], tuple(a for a in arguments[::-1] if a not in places)
+                if clause.forbidden:  # "don't go to the lab until you have been there" is not about the lab
+                    said = ((*things, *focus), (*places, *named))
+                else:
+                    said = ((*focus, *things), (*named, *places))
+                grown.append(({**queries, clause.number: made}, share * part, *said))
         options = sorted(grown, key=lambda option: -option[1])[:4]
     for queries, share, _, _ in options:
         yield queries, share

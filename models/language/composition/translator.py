@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol, Self
 
+from models.language.composition.arrangement import Arrangement, unmarked
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
 from models.language.composition.marks import MarkedReader
@@ -16,6 +17,7 @@ from models.language.composition.shapes import ONE_CLAUSE, SINGLE, filled, forbi
 from models.language.encoder import encoder
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
+from models.language.spans.tags import Span
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
 from models.language.translation import BEAM_WIDTH, Translation, weighed
@@ -38,12 +40,13 @@ LEAST_SHARE = 0.1
 """Nor those that are less probable than this share of the likeliest."""
 UNDERSTOOD = 0.2
 """Compositions that are less probable together than this are not read."""
+APART = 0.7
+"""Share of the readings of each clause by itself, where two of them may also be one task."""
 MOST = 4
 """Ways to put clauses together that are looked at."""
 
 
 _PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
-_Shape = tuple[str, tuple[Clause, ...], tuple[str, ...], float]
 
 
 class Taught(Protocol):
@@ -76,6 +79,11 @@ class ComposedTranslator:
         """The task classes that it was trained on."""
         return frozenset(task for task, _ in self.single.reader.model.network.config.tasks)
 
+    @property
+    def saying(self) -> frozenset[str]:
+        """The words that it knows to say what to do, and not with what."""
+        return frozenset(self.reader.model.network.config.words)
+
     def knowing(self, taught: Taught) -> Self:
         """The same, with clauses that are said as they were taught."""
         return replace(self, taught=taught)
@@ -96,7 +104,7 @@ class ComposedTranslator:
             alone = not _outvoted(understood(whole), _part(shapes, _several))
             if (_in_one_clause(whole[0].query) and alone) or _part(shapes, _plain) >= ALONE:
                 return whole[:candidates]
-        return _ranked(self._weighed(whole, shapes, understand), refusal, candidates)
+        return _ranked(self._weighed(whole, shapes, spoken, understand), refusal, candidates)
 
     def several(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """The readings of a text as more than one command, whatever it says as one; as `translate`."""
@@ -104,62 +112,83 @@ class ComposedTranslator:
         if not any(not is_mark(word) for word in spoken):
             return ()
         shapes, refusal = self._shapes(spoken)
-        found = self._weighed((), [shape for shape in shapes if _several(shape[0])], _Clauses(self.single, self.taught))
+        composed = [shape for shape in shapes if _several(shape.shape)]
+        found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught))
         return _ranked(found, refusal, candidates)
 
     def _weighed(
-        self, whole: Sequence[Translation], shapes: Sequence[_Shape], understand: Understand
+        self,
+        whole: Sequence[Translation],
+        shapes: Sequence[Arrangement],
+        spoken: Sequence[str],
+        understand: Understand,
     ) -> dict[Query, float]:
         """The queries that the shapes give, and those of the text as one task, with their probabilities."""
         one_task, alone = understood(whole), 0.0
         found: dict[Query, float] = {}
-        for shape, clauses, before, share in shapes:
-            sequence = shape.startswith(SEQUENCE)
-            needless = shape == SINGLE or (sequence and one_task >= CERTAIN)
-            read = {} if needless else self._composed(shape, clauses, before, understand)
+        for arranged in shapes:
+            sequence = arranged.shape.startswith(SEQUENCE)
+            needless = arranged.shape == SINGLE or (sequence and one_task >= CERTAIN)
+            read = {} if needless else self._read(arranged, spoken, understand)
             # What cannot be read together may still be one task, and a sequence that is one task is rather that.
             single = 1.0 if not read else one_task if sequence else 0.0
-            alone += single * share
+            alone += single * arranged.share
             for query, part in read.items():
-                found[query] = found.get(query, 0.0) + (1.0 - single) * share * part
+                found[query] = found.get(query, 0.0) + (1.0 - single) * arranged.share * part
         if sum(found.values()) <= UNDERSTOOD:
             found = {}
         for translation in whole:
             found[translation.query] = found.get(translation.query, 0.0) + alone * translation.confidence
         return found
 
-    def _composed(
-        self, shape: str, clauses: Sequence[Clause], before: Sequence[str], understand: Understand
-    ) -> dict[Query, float]:
-        """The queries of a shape with their probabilities; none where a clause cannot be understood."""
+    def _read(self, arranged: Arrangement, spoken: Sequence[str], understand: Understand) -> dict[Query, float]:
+        """The queries of an arrangement with their probabilities, and those with two of its clauses as one task."""
+        joined = list(arranged.joined(spoken))
+        understand.prepare(" ".join(clause.words) for each in (arranged, *joined) for clause in each.clauses)
+        apart = _composed(arranged, understand)
+        together = [read for each in joined if (read := _composed(each, understand))]
         found: dict[Query, float] = {}
-        for queries, part in readings(clauses, understand, before=before):
-            with suppress(QuerySyntaxError):  # too long or too deep
-                for query, likely in meanings(filled(read_shape(shape), dict(queries))):
-                    found[query] = found.get(query, 0.0) + part * likely
+        for read, share in [(apart, APART if together else 1.0), *((r, (1 - APART) / len(together)) for r in together)]:
+            for query, part in read.items():
+                found[query] = found.get(query, 0.0) + part * (share if apart else share / (1 - APART))
         return found
 
-    def _shapes(self, spoken: Sequence[str]) -> tuple[list[_Shape], float]:
-        """The likeliest shapes with their clauses in the order of the text, the words in front of the first, and their
-        probabilities; and the probability that the text asks for nothing.
-        """
-        found: dict[tuple[str, tuple[Clause, ...], tuple[str, ...]], float] = {}
+    def _shapes(self, spoken: Sequence[str]) -> tuple[list[Arrangement], float]:
+        """The likeliest arrangements, and the probability that the text asks for nothing."""
+        found: dict[Arrangement, float] = {}
         readings, refusal = self.reader.read(spoken)
         for reading in readings:
-            clauses = []
-            for number, spans in enumerate(reading.mentions, start=1):
-                begin, end = spans[0]
-                words = _unmarked(spoken[begin:end])
-                if words:
-                    clauses.append((begin, Clause(number, words, number in forbidden(reading.task))))
-            if len(clauses) == len(reading.mentions):
-                clauses.sort(key=lambda pair: pair[0])
-                ordered, before = tuple(clause for _, clause in clauses), _unmarked(spoken[: clauses[0][0]])
-                key = (reading.task, (), ()) if reading.task == SINGLE else (reading.task, ordered, before)
-                found[key] = found.get(key, 0.0) + reading.probability
+            arranged = _arranged(reading.task, [spans[0] for spans in reading.mentions], spoken)
+            if arranged is not None:
+                found[arranged] = found.get(arranged, 0.0) + reading.probability
         ranked = sorted(found.items(), key=lambda item: -item[1])[:MOST]
         least = max(LEAST, ranked[0][1] * LEAST_SHARE) if ranked else 0.0
-        return [(*key, share) for key, share in ranked if share >= least], refusal
+        return [replace(arranged, share=share) for arranged, share in ranked if share >= least], refusal
+
+
+def _arranged(shape: str, spans: Sequence[Span], spoken: Sequence[str]) -> Arrangement | None:
+    """A shape with the clauses at these places, by number; None where one has no words."""
+    clauses = [
+        (span, Clause(number, unmarked(spoken[slice(*span)]), number in forbidden(shape)))
+        for number, span in enumerate(spans, start=1)
+    ]
+    if not all(clause.words for _, clause in clauses):
+        return None
+    if shape == SINGLE:
+        return Arrangement(shape)
+    clauses.sort(key=lambda pair: pair[0][0])
+    before = unmarked(spoken[: clauses[0][0][0]])
+    return Arrangement(shape, tuple(c for _, c in clauses), tuple(span for span, _ in clauses), before)
+
+
+def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, float]:
+    """The queries of an arrangement with their probabilities; none where a clause cannot be understood."""
+    found: dict[Query, float] = {}
+    for queries, part in readings(arranged.clauses, understand, before=arranged.before):
+        with suppress(QuerySyntaxError):  # too long or too deep
+            for query, likely in meanings(filled(read_shape(arranged.shape), dict(queries))):
+                found[query] = found.get(query, 0.0) + part * likely
+    return found
 
 
 @dataclass(slots=True, eq=False)
@@ -233,10 +262,6 @@ def _plain(shape: str) -> bool:
     return not _several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None
 
 
-def _part(shapes: Sequence[_Shape], fits: Callable[[str], bool]) -> float:
+def _part(shapes: Sequence[Arrangement], fits: Callable[[str], bool]) -> float:
     """The part of the shapes that fit, by probability."""
-    return sum(share for shape, *_, share in shapes if fits(shape)) / (sum(share for *_, share in shapes) or 1.0)
-
-
-def _unmarked(spoken: Sequence[str]) -> tuple[str, ...]:
-    return tuple(word for word in spoken if not is_mark(word))
+    return sum(each.share for each in shapes if fits(each.shape)) / (sum(each.share for each in shapes) or 1.0)

@@ -101,3 +101,15 @@ def test_a_verb_in_front_of_all_clauses_is_that_of_each() -> None:
     clauses = [Clause(1, ("the", "ball"), False), Clause(2, ("the", "blue", "bag"), False)]
     found = list(readings(clauses, understand, before=("pick", "up", "either")))
     assert [str(query) for query in found[0][0].values()] == ["pickup(ball)", "pickup(blue bag)"]
+
+
+def test_there_is_not_the_place_that_is_forbidden() -> None:
+    """ "Go to the zoo; don't go to the bank until you have been there": the zoo, although the bank is nearer."""
+    (first, *_) = read("go to the zoo", "go to the bank", "go there", forbidden=(2, 3))
+    assert first[0] == ["go(zoo)", "go(bank)", "go(zoo)"]
+
+
+def test_it_is_what_the_last_clause_was_about() -> None:
+    """ "Pick up the ball, put it in the box, then pick it up": the ball, although the box is nearer."""
+    (first, *_) = read("pick up the ball", "put it in the box", "lift one of them")
+    assert first[0] == ["pickup(ball)", "put(ball, box)", "pickup(ball)"]

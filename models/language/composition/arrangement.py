@@ -1,0 +1,76 @@
+"""How the clauses of a text may belong together: a shape with its clauses, and the same with two clauses as one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from models.language.composition.clauses import Clause
+from models.language.composition.shapes import read_shape
+from models.language.spans.tags import Span
+from models.language.tokens import is_mark
+from models.queries import Composition, ContextualQuery, Operator, Query
+
+JOINING = (Operator.THEN, Operator.AND)
+"""Operators of which two operands may be one task: "load the ball into the crate, carry it to the hall" ships it."""
+_CLAUSE = re.compile(r"clause\((\d+)\)")
+
+
+@dataclass(frozen=True, slots=True)
+class Arrangement:
+    """A shape, its clauses in the order of the text with their places in it, the words in front of the first, and the
+    probability of all this.
+    """
+
+    shape: str
+    clauses: tuple[Clause, ...] = ()
+    spans: tuple[Span, ...] = ()
+    before: tuple[str, ...] = ()
+    share: float = 1.0
+
+    def joined(self, spoken: Sequence[str]) -> Iterator[Arrangement]:
+        """The arrangements of the words and marks in which two neighbours, done one after the other or both, are one
+        clause; none that leaves one clause alone.
+        """
+        for place, (one, other) in enumerate(pairwise(self.clauses)):
+            if len(self.clauses) < 3 or other.number != one.number + 1 or one.forbidden or other.forbidden:
+                continue
+            shape = _without(read_shape(self.shape), one.number, other.number)
+            if shape is not None:
+                yield self._with(shape, place, spoken)
+
+    def _with(self, shape: Query, place: int, spoken: Sequence[str]) -> Arrangement:
+        """Of a shape that lacks the clause after that at a place, which says what both do."""
+        one, other = self.clauses[place : place + 2]
+        span = self.spans[place][0], self.spans[place + 1][1]
+
+        def moved(number: int) -> int:
+            return number if number <= one.number else number - 1
+
+        clauses = [replace(clause, number=moved(clause.number)) for clause in self.clauses if clause is not other]
+        clauses[place] = Clause(one.number, unmarked(spoken[slice(*span)]), False, several=True)
+        spans = (*self.spans[:place], span, *self.spans[place + 2 :])
+        text = _CLAUSE.sub(lambda found: str(moved(int(found[1]))), str(shape))
+        return replace(self, shape=text, clauses=tuple(clauses), spans=spans)
+
+
+def unmarked(spoken: Sequence[str]) -> tuple[str, ...]:
+    """The words among words and marks of punctuation."""
+    return tuple(word for word in spoken if not is_mark(word))
+
+
+def _without(shape: Query, one: int, other: int) -> Query | None:
+    """A shape without a clause that stands right behind another under the same operator; None if it does not."""
+    if isinstance(shape, ContextualQuery):
+        return None
+    names = [operand.arguments[0] if isinstance(operand, ContextualQuery) else "" for operand in shape.operands]
+    if shape.operator in JOINING and str(one) in names and str(other) in names:
+        kept = [operand for operand, name in zip(shape.operands, names, strict=True) if name != str(other)]
+        return Composition(shape.operator, tuple(kept)) if len(kept) > 1 else kept[0]
+    for place, operand in enumerate(shape.operands):
+        found = _without(operand, one, other)
+        if found is not None:
+            return Composition(shape.operator, (*shape.operands[:place], found, *shape.operands[place + 1 :]))
+    return None
