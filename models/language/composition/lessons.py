@@ -14,9 +14,10 @@ from functools import cache
 from itertools import chain
 from typing import Literal, Self
 
-from models.language.composition.shapes import ONE_CLAUSE, SINGLE
+from models.language.composition.shapes import ONE_CLAUSE, SINGLE, read_shape
 from models.language.dataset import frames, no_task
 from models.language.dataset.composition import Form, Hole, Leaf, Pattern, leaves, patterns, slot_elements
+from models.language.dataset.nesting import nested, nestings
 from models.language.spans.items import Item
 from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, REFERRED, Lessons, misspelled
 from models.language.spans.tags import Span
@@ -25,8 +26,12 @@ from models.language.tokens import marked_words
 
 SETTINGS = Settings(epochs=14, embedding=32)
 """How the network is fitted."""
-EACH, ALONE, NONE = 100, 1600, 800
+EACH, ALONE, NONE = 100, 1800, 1200
 """Texts of a composition on average, of one command alone, and of no command, in an epoch."""
+FOLLOWING = 40
+"""Texts of a composition that has no patterns of its own."""
+NESTED = 0.25
+"""Part of the texts of other compositions that are patterns within patterns."""
 UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
@@ -55,7 +60,7 @@ class CompositionLessons:
     @property
     def tasks(self) -> tuple[tuple[str, int], ...]:
         """The shapes with their numbers of clauses."""
-        return ((SINGLE, 1), *((shape, len(group[0].holes)) for shape, group in patterns().items()))
+        return ((SINGLE, 1), *((shape, len({task for _, task in read_shape(shape).tasks})) for shape in _times()))
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -74,7 +79,7 @@ class CompositionLessons:
 
     def checks(self, generator: random.Random) -> list[Item]:
         """What the network is judged by: further texts of the same kind, and texts without a command."""
-        items = [self.composed(shape, generator) for shape in patterns() for _ in range(8)]
+        items = [self.composed(shape, generator) for shape in _times() for _ in range(6)]
         return [*items, *(self.alone(generator) for _ in range(200)), *self.held_out]
 
     def alone(self, generator: random.Random) -> Item:
@@ -89,7 +94,9 @@ class CompositionLessons:
 
     def composed(self, shape: str, generator: random.Random) -> Item:
         """A text of a shape."""
-        pattern = generator.choice(patterns()[shape])
+        own = patterns().get(shape, ())
+        rather_nested = shape in nestings() and (not own or generator.random() < NESTED)
+        pattern = nested(shape, generator) if rather_nested else generator.choice(own)
         chosen = _leaves(pattern, generator)
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
@@ -171,7 +178,8 @@ def _times() -> Mapping[str, int]:
     """
     ways = {shape: len(group) ** 0.5 for shape, group in patterns().items()}
     mean = sum(ways.values()) / len(ways)
-    return {shape: round(EACH * way / mean) for shape, way in ways.items()}
+    own = {shape: round(EACH * way / mean) for shape, way in ways.items()}
+    return own | {shape: FOLLOWING for shape in nestings() if shape not in own}
 
 
 def _framing() -> tuple[Sequence[str], Sequence[str], Sequence[str]]:

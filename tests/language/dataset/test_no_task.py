@@ -18,8 +18,8 @@ DATA: dict[str, list[str]] = yaml.safe_load((files("models.language.dataset") / 
 def test_sizes() -> None:
     texts = no_task()
     training, held_out = ({words(text) for text in part} for part in (texts.training, texts.held_out))
-    assert 4000 < len(training) < 10000
-    assert 400 < len(held_out) < 1500
+    assert 8000 < len(training) < 16000
+    assert 800 < len(held_out) < 4000
     assert not training & held_out
     assert all(training | held_out)
 
