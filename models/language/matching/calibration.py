@@ -17,7 +17,7 @@ from models.language.matching.model import MatchModel
 from models.language.matching.network import MatchNet
 from models.language.matching.training import Course, batch
 
-SHELVES, TASKS = 20, 30
+SHELVES, TASKS = 20, 60
 """Shelves that are drawn, and tasks on each."""
 MOST_EXAMPLES = 5
 STEEPNESS = (8.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0)

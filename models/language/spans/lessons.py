@@ -36,11 +36,11 @@ from models.language.spans.tags import Span
 from models.language.tokens import words
 from models.language.translation import NEGATIONS
 
-COMMANDS, REFUSALS = 600, 2500
+COMMANDS, REFUSALS = 500, 2600
 """Texts of each task class and of none in an epoch; T has 23 of navigate_one and 458 of navigate_three."""
 OTHER_JOBS = 400
 """Clauses in an epoch that are none of the task classes: "mop the floor"."""
-CLAUSES = 0.25
+CLAUSES = 0.35
 """Part of the commands of some classes that are clauses in any grammatical form."""
 CLAUSE_SLOTS = {
     "place": "location",
