@@ -47,7 +47,7 @@ def run(blocks: list[Block], folder: Path, server: str) -> dict[Block, str]:
         ran.append(block)
     text = "\n".join(script).replace(ADDRESS, server)
     result = subprocess.run(
-        ["bash", "-c", text], cwd=folder, env=_environment(folder, server), capture_output=True, text=True, timeout=120
+        ["bash", "-c", text], cwd=folder, env=_environment(folder, server), capture_output=True, text=True, timeout=300
     )
     last = int((folder / "outputs" / "last").read_text())
     said = (folder / "outputs" / f"{last}").read_text(encoding="utf-8")
