@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz page-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -22,6 +22,9 @@ wheel-check: $(VENV)/.dev  # the wheel has everything, and serves in an environm
 
 page-check: $(VENV)/.dev  # the page in Chromium: what a visitor does, who can use it, how it looks
 	$(BIN)/python -m pytest -m long tests/page
+
+docs-check: $(VENV)/.dev  # all that README.md and docs/*.md tell their readers to type, against servers of their own; a minute
+	$(BIN)/python -m pytest -m 'long or not long' tests/documents
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py

@@ -15,7 +15,7 @@ from urllib.parse import quote
 from pydantic import ValidationError
 
 from service.errors import CannotStartError
-from service.exchange import add_commands, export, import_model
+from service.exchange import add_commands, export, import_environment, read_environment
 from service.keys_command import add_keys_command, keys
 from service.settings import Settings
 from service.store.engine import is_postgresql
@@ -190,7 +190,7 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     if chosen := _plan_options(options):
         body["options"] = chosen
     if getattr(options, "environment_file", None) is not None:
-        body["environment_spec"] = _read_environment(options.environment_file)
+        body["environment_spec"] = read_environment(options.environment_file)
     try:
         status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
     except UnreachableError as error:
@@ -240,20 +240,11 @@ def _show(settings: Settings, options: argparse.Namespace, body: dict[str, Any],
 
 
 def _export(settings: Settings, options: argparse.Namespace) -> int:
-    return export(settings, options, options.environment_file and _read_environment(options.environment_file))
+    return export(settings, options, options.environment_file and read_environment(options.environment_file))
 
 
 def _import(settings: Settings, options: argparse.Namespace) -> int:
-    return import_model(settings, options)
-
-
-def _read_environment(path: Path) -> Any:
-    import yaml
-
-    try:
-        return yaml.safe_load(path.read_text(encoding="utf-8"))  # JSON is YAML
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        sys.exit(f"{path}: {error}")
+    return import_environment(settings, options)
 
 
 def _openapi(settings: Settings, options: argparse.Namespace) -> int:

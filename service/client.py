@@ -29,6 +29,11 @@ def post(path: str, body: dict[str, Any], *, server: str | None, settings: Setti
     return _ask("POST", path, body, server, settings)
 
 
+def put(path: str, body: dict[str, Any], *, server: str | None, settings: Settings) -> tuple[int, Any]:
+    """PUT a JSON body; as `post`."""
+    return _ask("PUT", path, body, server, settings)
+
+
 def get(path: str, *, server: str | None, settings: Settings) -> tuple[int, Any]:
     """GET JSON; status and decoded answer. Raises as `post`."""
     return _ask("GET", path, None, server, settings)

@@ -1,4 +1,4 @@
-"""`cqltl export` and `cqltl import`: environments for PRISM and Storm, and PRISM models as environments.
+"""`cqltl export` and `cqltl import`: environments for PRISM and Storm; environments and PRISM models from files.
 
 What only these commands need is imported when they run, since the others share the parser.
 """
@@ -11,9 +11,13 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from models.errors import CqltlError
 from service.settings import Settings
+
+ENVIRONMENT_FILES = (".yaml", ".yml", ".json")
+"""How files end that hold an environment as it is sent over HTTP; all others are read as PRISM models."""
 
 
 def add_commands(commands: Any) -> None:
@@ -29,9 +33,10 @@ def add_commands(commands: Any) -> None:
     export.add_argument("--output", type=Path, help="write to this file")
     export.add_argument("--server", help="address of a running server; without it none is needed")
 
-    read = commands.add_parser("import", help="store a PRISM model as an environment (needs the extra `prism`)")
-    read.add_argument("file", type=Path)
-    read.add_argument("--name", required=True, help="name of the environment")
+    read = commands.add_parser("import", help="store an environment: YAML, JSON, or a PRISM model (extra `prism`)")
+    read.add_argument("file", type=Path, help="*.yaml and *.json are environments, all else is PRISM")
+    read.add_argument("--name", help="name of the environment; a PRISM model has none of its own")
+    read.add_argument("--replace", action="store_true", help="replace the environment of that name, if there is one")
     read.add_argument(
         "--constant",
         dest="constants",
@@ -91,23 +96,28 @@ def _exported(data: Mapping[str, Any], options: argparse.Namespace) -> str:
     return text if formula is None else f"// {property_text(formula, label_names(wanted))}\n{text}"
 
 
-def import_model(settings: Settings, options: argparse.Namespace) -> int:
-    """Read a PRISM model and store it, or write it; the exit status."""
-    from models.interchange import read_prism
-    from service.client import UnreachableError, post
+def import_environment(settings: Settings, options: argparse.Namespace) -> int:
+    """Read an environment or a PRISM model and store it, or write it as JSON; the exit status."""
+    from service.client import UnreachableError, post, put
 
+    model = options.file.suffix not in ENVIRONMENT_FILES
+    if model and options.name is None:
+        print("a PRISM model needs a --name", file=sys.stderr)
+        return 2
+    if not model and (options.constants or options.rewards):
+        print("--constant and --rewards are for PRISM models", file=sys.stderr)
+        return 2
     try:
-        data = read_prism(
-            options.file,
-            name=options.name,
-            constants=dict(options.constants),
-            rewards=options.rewards,
-            timeout_s=options.timeout,
-        )
+        data = _model(options) if model else _named(read_environment(options.file), options.name)
         if options.output is not None:
             options.output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
             return 0
-        status, answer = post("/environments", data, server=options.server, settings=settings)
+        name = data.get("name") if isinstance(data, dict) else None
+        if options.replace and isinstance(name, str):
+            path = f"/environments/{quote(name, safe='')}"
+            status, answer = put(path, data, server=options.server, settings=settings)
+        else:
+            status, answer = post("/environments", data, server=options.server, settings=settings)
     except (CqltlError, UnreachableError) as error:
         print(getattr(error, "detail", error), file=sys.stderr)
         if caret := getattr(error, "caret", ""):
@@ -116,9 +126,47 @@ def import_model(settings: Settings, options: argparse.Namespace) -> int:
     if status >= 400:
         print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stderr)
         return 1
-    costs = ", with costs" if any("cost" in transition for transition in data["transitions"]) else ""
-    print(f"{options.name}: {data['states']} states, {len(data['transitions'])} transitions{costs}")
+    print(f"{answer['name']}: {_counted(data)}")
     return 0
+
+
+def read_environment(path: Path) -> Any:
+    """The data of a YAML or JSON file; the command ends where it cannot be read."""
+    import yaml
+
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8"))  # JSON is YAML
+        return json.loads(json.dumps(found, default=str))  # what looks like a date is text here
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, TypeError) as error:
+        sys.exit(f"{path}: {error}")
+
+
+def _named(data: Any, name: str | None) -> Any:
+    """The data under another name, if one is given; what is no mapping is for the service to refuse."""
+    return {**data, "name": name} if name is not None and isinstance(data, dict) else data
+
+
+def _model(options: argparse.Namespace) -> dict[str, Any]:
+    from models.interchange import read_prism
+
+    return read_prism(
+        options.file,
+        name=options.name,
+        constants=dict(options.constants),
+        rewards=options.rewards,
+        timeout_s=options.timeout,
+    )
+
+
+def _counted(data: Mapping[str, Any]) -> str:
+    """What a stored environment has."""
+    if data["kind"] == "explicit":
+        costs = ", with costs" if any("cost" in transition for transition in data["transitions"]) else ""
+        return f"{data['states']} states, {len(data['transitions'])} transitions{costs}"
+    from models.world import compile_world, load_environment
+
+    world = compile_world(load_environment(data))
+    return f"{world.size:,} states, {len(world.actions)} actions"
 
 
 def _constant(text: str) -> tuple[str, str]:

@@ -115,8 +115,8 @@ class _Reader:
             self.report.add(["grid", "class"], f"{grid.class_} needs static {listing(missing, 'and')}: {grid.class_}")
         self.grid = read = read_grid(grid, self.report)
         for name in read.cells:
-            if name in self.objects:
-                self.report.add(["grid"], f"{name} is an object of the domain already")
+            if name in self.objects and self.objects[name].kind != grid.class_:  # a constant may be a cell
+                self.report.add(["grid"], f"{name} is a {self.objects[name].kind} of the domain already")
             self.objects[name] = Symbol(grid.class_, name)
         return read.neighbours
 

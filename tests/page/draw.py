@@ -30,6 +30,7 @@ def draw() -> None:
         for _ in range(3):
             page.click("#step")
         page.check("#arrows")
+        page.wait_for_selector(".arrow-sign")
         page.evaluate("scrollTo({ top: 0, behavior: 'instant' })")
         page.evaluate("document.activeElement.blur()")
         shot = page.screenshot()

@@ -54,6 +54,49 @@ def test_an_environment_in_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert "[go]" in capsys.readouterr().out
 
 
+def test_an_environment_of_ones_own_is_stored_replaced_and_planned(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "hut.yaml"
+    hut = """
+        name: hut
+        kind: oomdp
+        domain: toys
+        grid: {class: cell, map: [AB], names: {A: den, B: 2024-01-01}}
+        objects: {ball: {class: toy}}
+        state: {robot: {at: den}, ball: {in: den}}
+    """
+    file.write_text(hut)
+    assert main(["import", str(file)]) == 0
+    assert capsys.readouterr().out == "hut: 6 states, 6 actions\n"
+    assert main(["plan", "--ltl", 'F at(ball, "2024-01-01")', "--environment", "hut"]) == 0
+    assert json.loads(capsys.readouterr().out)["expected_steps"] == 3
+    assert main(["import", str(file)]) == 1
+    assert "environment-exists" in capsys.readouterr().err
+    file.write_text(hut.replace("ball: {in: den}", 'ball: {in: "2024-01-01"}'))
+    assert main(["import", str(file), "--replace"]) == 0
+    assert main(["plan", "--ltl", 'F at(ball, "2024-01-01")', "--environment", "hut"]) == 0
+    assert json.loads(capsys.readouterr().out.partition("\n")[2])["expected_steps"] == 0
+    file.write_text(hut.replace("ball: {in: den}", "ball: {in: cellar}"))
+    assert main(["import", str(file), "--name", "cabin", "--replace"]) == 1
+    assert '"pointer": "/state/ball/in"' in capsys.readouterr().err
+    assert main(["import", str(file), "--constant", "N=3"]) == 2
+    assert main(["import", str(tmp_path / "counter.prism")]) == 2
+    assert "--name" in capsys.readouterr().err
+
+
+def test_a_file_that_is_no_environment_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "list.json"
+    file.write_text("[1]")
+    assert main(["import", str(file), "--name", "list", "--replace"]) == 1
+    assert "urn:cqltl:problem:validation" in capsys.readouterr().err
+    file.write_text("{a: ")
+    with pytest.raises(SystemExit, match=r"list\.json"):
+        main(["import", str(file)])
+    with pytest.raises(SystemExit, match="No such file"):
+        main(["import", str(tmp_path / "none.yaml")])
+
+
 def test_a_prism_model_is_stored_and_planned(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("stormpy")
     file = tmp_path / "counter.prism"

@@ -1,8 +1,9 @@
 """Maps."""
 
+import numpy as np
 import pytest
 
-from models.world import WorldError, load_environment, navigation_spec, toys_spec
+from models.world import WorldError, compile_world, load_environment, navigation_spec, toys_spec
 from models.world.grid import read_grid
 from models.world.report import Report
 from models.world.specs import GridSpec
@@ -85,3 +86,44 @@ def test_navigation_moves_as_drawn():
     assert reach("a", "east") == {"a": 0.75, "place_1_2": 0.25}
     assert reach("place_2_2", "north") == {"place_2_2": 0.5, "place_1_2": 0.25, "place_3_2": 0.25}
     assert reach("b", "south") == {"b": 0.75, "place_2_3": 0.25}
+
+
+def garden(**changes):
+    """A robot that fills its can at the tap, which the domain names and the grid has as a cell."""
+    cells = {"north": "bed", "south": "bed", "east": "bed", "west": "bed"}
+    return {
+        "name": "garden",
+        "kind": "oomdp",
+        "domain_spec": {
+            "name": "watering",
+            "attributes": {"can": ["empty", "full"]},
+            "classes": {"bed": {"static": cells}, "robot": {"state": {"at": "bed", "can": "can"}}},
+            "constants": {"robot": "robot", "tap": "bed"},
+            "functions": {"ready": {"is": "robot.can == full"}},
+            "actions": {
+                "east": {"outcomes": [{"set": {"robot.at": "robot.at.east"}}]},
+                "fill": {"when": "robot.at == tap", "outcomes": [{"set": {"robot.can": "full"}}]},
+            },
+        },
+        "grid": {"class": "bed", "map": ["ST"], "names": {"S": "shed", "T": "tap"}},
+        "state": {"robot": {"at": "shed", "can": "empty"}},
+        **changes,
+    }
+
+
+def test_a_constant_may_be_a_cell():
+    environment = load_environment(garden())
+    world = compile_world(environment)
+    assert world.size == 4
+    there = world.outcomes(world.actions.index("east"), np.array([world.initial])).successor[0]
+    filled = world.outcomes(world.actions.index("fill"), there)
+    assert filled.enabled.tolist() == [True]
+    assert world.decode(int(filled.successor[0, 0])) == {"robot": {"at": "tap", "can": "full"}}
+    assert not world.outcomes(world.actions.index("fill"), np.array([world.initial])).enabled[0]
+
+
+def test_a_constant_of_another_class_is_no_cell():
+    with pytest.raises(WorldError) as caught:
+        load_environment(garden(grid={"class": "bed", "map": ["ST"], "names": {"S": "robot", "T": "tap"}}))
+    first = caught.value.places[0]
+    assert (first.pointer, first.detail) == ("/grid", "robot is a robot of the domain already")

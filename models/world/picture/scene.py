@@ -98,11 +98,11 @@ def _thing(name: str, spot: Spot, layout: Layout, state: State) -> Group:
     if name != layout.robot:
         values = {a: v for a, v in state.get(name, {}).items() if v not in layout.grid.cells and not _named(v, layout)}
         size = fitted(shown(name), 9.5, 0.75 if name in layout.fixtures else 1)
-        parts.append(Text(0, 23, shown(name), "label", size, middle=True, data={"part": "label"}))
+        parts.append(Text(0, 24.5, shown(name), "label", size, middle=True, data={"part": "label"}))
         if values:
             status = ", ".join(map(shown, values.values()))
             data["status"] = " ".join(values)
-            parts.append(Text(0, 33, status, "status", 9.5, middle=True, bold=True, data={"part": "status"}))
+            parts.append(Text(0, 34.5, status, "status", 9.5, middle=True, bold=True, data={"part": "status"}))
     return Group(parts, spot.x, spot.y, spot.scale, kind, shown(name), data)
 
 

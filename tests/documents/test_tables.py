@@ -10,7 +10,9 @@ from pathlib import Path
 import models
 import service
 from models.errors import CqltlError
-from models.logic import PropertyClass, classify, parse
+from models.logic import Formula, FormulaSyntaxError, PropertyClass, classify, parse
+from models.queries import Operator, compose
+from models.world import explain
 from service.http.problems import STATUS
 from service.settings import Settings
 
@@ -74,3 +76,53 @@ def test_no_setting_is_read_elsewhere() -> None:
         for file in Path(package.__path__[0]).rglob("*.py"):
             said = set(re.findall(r"CQLTL_[A-Z_]+[A-Z]", file.read_text(encoding="utf-8")))
             assert said <= known, file
+
+
+def cells(line: str) -> list[str]:
+    """The cells of a row, in which `\\|` is no border."""
+    return [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+
+
+def rows_under(page: str, header: str) -> list[list[str]]:
+    """The rows of the table with this header."""
+    text = (DOCS / page).read_text(encoding="utf-8").partition(f"\n{header}\n")[2]
+    lines = text.splitlines()[1:]
+    return [cells(line) for line in lines[: next(n for n, line in enumerate(lines) if not line.startswith("|"))]]
+
+
+def test_every_reading_of_a_formula_is_what_is_said() -> None:
+    rows = rows_under("ltl.md", "| formula | reads |")
+    assert len(rows) > 20
+    for formulas, readings in rows:
+        written, said = re.findall("`(.*?)`", formulas), readings.split("; ")
+        for formula, reading in zip(written, said * len(written) if len(said) == 1 else said, strict=True):
+            assert explain(parse(formula)) == reading, formula
+
+
+def test_every_spelling_of_an_operator_is_read() -> None:
+    """Spelt in any way, an operator is one of those of its row; what has no operand or two is found by trying."""
+    rows = rows_under("ltl.md", "| operator | meaning | infix | also read |")
+    assert len(rows) > 8
+    for name, _, standard, others in rows:
+        meant = {applied(symbol) for symbol in re.findall("`(.*?)`", standard)}
+        assert {applied(symbol) for symbol in re.findall("`(.*?)`", others)} <= meant, name
+
+
+def applied(symbol: str) -> Formula:
+    """The formula that an operator makes of as many operands as it takes."""
+    for text in (f"a {symbol} b", f"{symbol} a", symbol):
+        try:
+            return parse(text)
+        except FormulaSyntaxError:
+            continue
+    raise AssertionError(f"{symbol} is not read")
+
+
+def test_every_composition_means_what_the_table_says() -> None:
+    a, b = parse("F a"), parse("F b")
+    operands = {Operator.AVOID: [a], Operator.REPEAT: [a], Operator.UNTIL: [compose(Operator.AVOID, [a]), b]}
+    rows = rows_under("http.md", "| composition | means | for tasks `F a`, `F b` |")
+    said = {re.findall("`([a-z]+)", how)[0]: parse(re.findall("`(.*?)`", formula)[0]) for how, _, formula in rows}
+    assert set(said) == set(Operator)
+    for name, formula in said.items():
+        assert compose(Operator(name), operands.get(Operator(name), [a, b])) == formula, name

@@ -18,7 +18,7 @@ def page(pytestconfig):
 
 
 def block(page, language):
-    return re.search(f"```{language}\n(.*?)```", page, re.DOTALL)[1]
+    return re.search(f"```{language}.*?\n(.*?)```", page, re.DOTALL)[1]
 
 
 def test_the_complete_example(page):
