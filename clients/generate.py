@@ -33,6 +33,16 @@ _GENERATOR = {
         '--import-mappings=EnvironmentSpec=#include "EnvironmentSpec.h"',
     ],
 }
+_BOTH_ANSWERS = (  # of a plan in time and of one that became a job, openapi-generator takes the first type for each
+    ("Promise<runtime.ApiResponse<PlanResponse>>", "Promise<runtime.ApiResponse<PlanResponse | JobOut>>"),
+    ("Promise<PlanResponse>", "Promise<PlanResponse | JobOut>"),
+    (
+        "(response, (jsonValue) => PlanResponseFromJSON(jsonValue))",
+        "<PlanResponse | JobOut>(response, (jsonValue) =>\n"
+        "            response.status === 202 ? JobOutFromJSON(jsonValue) : PlanResponseFromJSON(jsonValue))",
+    ),
+)
+"""What is put in the place of what in the TypeScript client's `PlanningApi`."""
 NAMES = (*_GENERATOR, "python-httpx")
 
 
@@ -53,7 +63,19 @@ def generate(name: str, output: Path) -> Path:
         _run("openapi-generator-cli", "generate", "-i", DOCUMENT, "-o", folder, "-g", *_GENERATOR[name])
     if name == "cpp":
         shutil.copy(HERE / "cpp" / "EnvironmentSpec.h", folder / "include")
+    if name == "typescript":
+        _tell_jobs_from_plans(folder / "src" / "apis" / "PlanningApi.ts")
     return folder
+
+
+def _tell_jobs_from_plans(path: Path) -> None:
+    """Let `plan` return either; raises `GenerationError` where the generator has come to write something else."""
+    text = path.read_text(encoding="utf-8")
+    for old, new in _BOTH_ANSWERS:
+        if old not in text:
+            raise GenerationError(f"{path} has no {old!r} to be mended")
+        text = text.replace(old, new, 1)
+    path.write_text(text, encoding="utf-8")
 
 
 def _run(program: str, *arguments: str | Path) -> None:

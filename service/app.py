@@ -38,6 +38,7 @@ from service.http.limits import BodyLimit
 from service.http.openapi import openapi
 from service.http.problems import install
 from service.http.scopes import UNLIMITED, first_part
+from service.http.shortcut import Shortcut
 from service.jobs import EmbeddedExecutor, Executor
 from service.keys import KeyRing
 from service.metrics import Metrics
@@ -80,6 +81,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
     app.state.cannot_start = None
     install(app)
     metrics = app.state.metrics = Metrics()
+    app.add_middleware(Shortcut, most=settings.translation_cache_bytes)
     app.add_middleware(GZipMiddleware, minimum_size=1_000, compresslevel=5)
     app.add_middleware(BodyLimit, limit=settings.max_body_bytes, depth=settings.max_json_depth)
     app.add_middleware(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 from anyio.to_thread import run_sync
@@ -140,7 +141,8 @@ async def plan(
     What takes longer than `wait_s` seconds becomes a job, and so does a request that is to be done `once`: a job that
     has ended tells what became of it. `describe` gives what is known of the answer beforehand, as JSON.
     """
-    environment, meaning = await run_sync(_prepare, services, order)
+    prepared = partial(_prepare, services, order)
+    environment, meaning = await (run_sync(prepared) if order.text is None else services.in_turn(prepared))
     work = PlanJob(
         environment=environment.text,
         formula=meaning.formula,

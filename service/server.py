@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import socket
@@ -33,6 +34,8 @@ class _Server(uvicorn.Server):
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
+        gc.collect()
+        gc.freeze()  # networks and grammars stay: to look through them again and again would hold up requests
         if self.started:
             print(self._said, flush=True)  # noqa: T201 - what `cqltl serve` is for
 

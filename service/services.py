@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
+import numpy as np
+from anyio import CapacityLimiter
+from anyio.to_thread import run_sync
 from sqlalchemy.exc import SQLAlchemyError
 
 from models.language.hearing import Lessons
 from models.world import Environment, load_environment
+from service.cache import ByteCache
 from service.errors import NotReadyError
+from service.freshness import Freshness
 from service.jobs import Executor
 from service.metrics import Metrics
 from service.settings import Settings
@@ -25,6 +30,11 @@ from service.worker import Workers
 
 if TYPE_CHECKING:  # planning loads SciPy, which a server needs only when a robot acts
     from models.planning import Policy
+
+T = TypeVar("T")
+
+TRANSLATING = 1
+"""Threads that translate."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +77,9 @@ class Services:
         self._utterances = KnownCache()
         self._noted = False  # whether what the store has of utterances was taken over
         self._reading = Lock()
-        self._policy = lru_cache(maxsize=16)(self._read_policy)
+        self._networks = CapacityLimiter(TRANSLATING)
+        self.freshness = Freshness(store)
+        self._policies: ByteCache[str, tuple[StoredPolicy, Policy]] = ByteCache(settings.policy_cache_bytes)
         self._parsed = lru_cache(maxsize=64)(_parse_environment)
 
     def environment(self, name: str) -> LoadedEnvironment:
@@ -105,14 +117,31 @@ class Services:
             transaction.templates.examples.note(notes)
 
     def policy(self, policy_id: str) -> tuple[StoredPolicy, Policy]:
-        """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are cached."""
-        return self._policy(policy_id)
+        """The stored policy and its value; raises `UnknownPolicyError`. Policies never change, so they are kept."""
+        found = self._policies.get(policy_id)
+        if found is None:
+            found = self._read_policy(policy_id)
+            self._policies.put(policy_id, found, _size(*found))
+        return found
+
+    def policy_at_hand(self, policy_id: str) -> Policy | None:
+        """The policy if the store need not be asked for it."""
+        found = self._policies.get(policy_id)
+        return None if found is None else found[1]
+
+    async def in_turn(self, function: Callable[[], T]) -> T:
+        """What `function` gives, which asks the networks: one after the other, first come, first served, in a thread.
+
+        More threads at a time are no faster, since most of a translation holds the interpreter's lock; all would be
+        late instead of some.
+        """
+        return await run_sync(function, limiter=self._networks)
 
     def forget_policy(self, policy_id: str) -> None:
         """Delete a policy; other processes may answer from their cache for a while."""
         with self.store.write() as transaction:
             transaction.policies.delete(policy_id)
-        self._policy.cache_clear()
+        self._policies.forget(policy_id)
 
     def check(self) -> None:
         """Raise `NotReadyError` when the store does not answer."""
@@ -127,6 +156,12 @@ class Services:
         with self.store.read() as transaction:
             stored = transaction.policies.get(policy_id)
         return stored, from_bytes(stored.data)
+
+
+def _size(stored: StoredPolicy, policy: Policy) -> int:
+    """Bytes that a policy takes."""
+    arrays = [value for each in fields(policy) if isinstance(value := getattr(policy, each.name), np.ndarray)]
+    return len(stored.data) + len(stored.world) + sum(array.nbytes for array in arrays)
 
 
 def _parse_environment(text: str) -> LoadedEnvironment:

@@ -51,6 +51,12 @@ class Settings(BaseSettings):
         17_179_869_184, ge=0, description="Address space of one worker process, in bytes; 0 sets no limit."
     )
     max_store_bytes: int = Field(0, ge=0, description="Largest size of the SQLite file, in bytes; 0 sets no limit.")
+    translation_cache_bytes: int = Field(
+        67_108_864, ge=0, description="Most bytes of translations kept to be given again; 0 keeps none."
+    )
+    policy_cache_bytes: int = Field(
+        536_870_912, ge=0, description="Most bytes of policies kept at hand for their steps, beside the store."
+    )
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
     log_format: LogFormat = Field("text", description="`text` for people, `json` for a line of JSON each.")
     log_level: LogLevel = Field("warning", description="The least that is logged; `info` has a line for each request.")

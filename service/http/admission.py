@@ -27,5 +27,8 @@ def document_admission(document: dict[str, Any]) -> None:
                 slugs += ["unauthorized", "forbidden"]
             if part not in UNLIMITED:
                 slugs += ["rate-limited", "overloaded"]
+            # Any head may be too long, and only the socket knows; where `parameters` are, a request may well have one.
+            if "parameters" in operation:
+                operation["responses"].setdefault("431", {"description": "`http-error`: the head is too long"})
             for slug in slugs:
                 operation["responses"].setdefault(str(STATUS[slug]), {"description": f"`{slug}`"})

@@ -20,6 +20,9 @@ from service.places import at
 from service.services import Services
 from service.store import Once, StoredEnvironment
 
+MAX_STATE = 8_000
+"""Longest state in a query, in characters: percent-encoded, JSON of ASCII fits the longest head there is by default."""
+
 router = APIRouter(prefix="/environments", tags=["environments"])
 
 SVG = "image/svg+xml"
@@ -82,7 +85,7 @@ def get_environment_image(
     state: Annotated[
         str | None,
         Query(
-            max_length=100_000,
+            max_length=MAX_STATE,
             description='A state as JSON, such as `{"robot": {"at": "kitchen"}}`; what is left out is as in the '
             "initial state.",
         ),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from anyio.to_thread import run_sync
 from fastapi import APIRouter, Response
 
@@ -30,19 +32,23 @@ router = APIRouter(tags=["language"])
     operation_id="translate",
     responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long", "wrong-answer"),
 )
-def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
+async def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
-    return translated_out(
-        translate(
-            services,
-            body.text,
-            environment=body.environment,
-            state=body.state,
-            translator=body.translator,
-            candidates=body.candidates,
-            answers=answers_in(body.answers),
+
+    def translated() -> TranslateResponse:
+        return translated_out(
+            translate(
+                services,
+                body.text,
+                environment=body.environment,
+                state=body.state,
+                translator=body.translator,
+                candidates=body.candidates,
+                answers=answers_in(body.answers),
+            )
         )
-    )
+
+    return await services.in_turn(translated)
 
 
 @router.post(
@@ -50,24 +56,25 @@ def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateRe
     operation_id="translateBatch",
     responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long"),
 )
-def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
+async def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
     """Translate several commands."""
-    return BatchResponse(
-        items=[
-            translated_out(
-                translate(
-                    services,
-                    text,
-                    environment=body.environment,
-                    state=body.state,
-                    translator=body.translator,
-                    candidates=body.candidates,
-                    pointer=f"/texts/{index}",
-                )
+
+    def translated(index: int, text: str) -> TranslateResponse:
+        return translated_out(
+            translate(
+                services,
+                text,
+                environment=body.environment,
+                state=body.state,
+                translator=body.translator,
+                candidates=body.candidates,
+                pointer=f"/texts/{index}",
             )
-            for index, text in enumerate(body.texts)
-        ]
-    )
+        )
+
+    # Each waits for its turn, so that nobody waits for a whole batch.
+    items = [await services.in_turn(partial(translated, index, text)) for index, text in enumerate(body.texts)]
+    return BatchResponse(items=items)
 
 
 @router.post(

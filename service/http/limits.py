@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.http.problems import problem_response, response_of
-from service.http.strict_json import flaw
+from service.http.strict_json import Flawed, read_json
 
 DRAINED = 16
 """How many times the limit is still read and thrown away before the answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadBody:
+    """A body of JSON as it was read, in the scope as `cqltl.body`; `plain` is `application/json`, and nothing +json."""
+
+    data: bytes
+    value: Any
+    plain: bool
 
 
 class _Gone(Exception):
@@ -44,10 +56,16 @@ class BodyLimit:
             return
         if body is None:
             await self._too_large()(scope, receive, send)
-        elif body and _is_json(headers) and (found := flaw(bytes(body), self._depth)) is not None:
-            await response_of(found)(scope, receive, send)
-        else:
-            await self._app(scope, _replaying(bytes(body), receive), send)
+            return
+        kind = headers.get("content-type", "").partition(";")[0].strip().lower()
+        if body and _is_json(kind):
+            try:
+                value = read_json(body, self._depth)
+            except Flawed as flawed:
+                await response_of(flawed.problem)(scope, receive, send)
+                return
+            scope["cqltl.body"] = ReadBody(body, value, kind == "application/json")
+        await self._app(scope, _replaying(body, receive), send)
 
     def _refused_unread(self, headers: Headers) -> Response | None:
         declared = headers.get("content-length", "0")
@@ -58,7 +76,7 @@ class BodyLimit:
             return _closing(problem_response("unsupported-media-type", "the body is compressed: send it as it is"))
         return None
 
-    async def _read(self, receive: Receive) -> bytearray | None:
+    async def _read(self, receive: Receive) -> bytes | None:
         """The body; None where it is too large, and then most of the rest is read too."""
         body, more = bytearray(), True
         while more:
@@ -71,7 +89,7 @@ class BodyLimit:
                 if more:
                     await _drain(receive, DRAINED * self._limit)
                 return None
-        return body
+        return bytes(body)
 
     def _too_large(self) -> Response:
         return _closing(problem_response("body-too-large", f"the body has more than {self._limit} bytes"))
@@ -92,8 +110,7 @@ async def _drain(receive: Receive, most: int) -> None:
             return
 
 
-def _is_json(headers: Headers) -> bool:
-    kind = headers.get("content-type", "").partition(";")[0].strip().lower()
+def _is_json(kind: str) -> bool:
     return kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import json
 import math
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Header, Query, Response
 
@@ -25,6 +25,9 @@ from service.http.schemas import (
     StepResponse,
 )
 from service.places import at
+
+if TYPE_CHECKING:  # planning loads SciPy
+    from models.planning import Step
 
 router = APIRouter(prefix="/policies", tags=["policies"])
 
@@ -140,7 +143,11 @@ def post_step(policy_id: str, body: StepRequest, services: ServicesDep) -> StepR
     """What to do now: send the state observed and the memory the last step returned, once per step."""
     _, policy = services.policy(policy_id)
     with at("/state", only={"invalid-state"}), at("/memory", only={"invalid-memory"}):
-        step = policy.step(body.state, body.memory)
+        return step_out(policy.step(body.state, body.memory))
+
+
+def step_out(step: Step) -> StepResponse:
+    """What to do, as it is answered."""
     return StepResponse(
         action=step.action,
         memory=step.memory,

@@ -23,32 +23,44 @@ class _Unclear(ValueError):
     """Python would read it, others would read something else."""
 
 
-def flaw(body: bytes, max_depth: int) -> Problem | None:
-    """What is wrong with a body as JSON, before anybody looks at what it says; None where nothing is."""
+class Flawed(Exception):
+    """A body is not JSON to rely on; `problem` says why."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem.detail)
+        self.problem = problem
+
+
+def read_json(body: bytes, max_depth: int) -> Any:
+    """What a body says; raises `Flawed` for what is wrong with it as JSON, before anybody looks at what it says."""
     try:
         text = body.decode("utf-8")
     except UnicodeDecodeError as error:
-        return _malformed(f"the body is not JSON: byte {error.start} is not UTF-8")
+        raise _malformed(f"the body is not JSON: byte {error.start} is not UTF-8") from None
     try:
-        value = json.loads(text, object_pairs_hook=_object, parse_constant=_no_number)
+        value = _DECODER.decode(text)
     except json.JSONDecodeError as error:
         place = locate(text, min(error.pos, len(text)))
-        return _malformed(f"the body is not JSON: {error.msg}", line=place.line, column=place.column, caret=place.caret)
+        detail = f"the body is not JSON: {error.msg}"
+        raise _malformed(detail, line=place.line, column=place.column, caret=place.caret) from None
     except RecursionError:
-        return _too_deep(max_depth)
+        raise _too_deep(max_depth) from None
     except ValueError as error:  # also a number of more digits than Python reads
-        return _malformed(f"the body is not JSON to rely on: {error}")
+        raise _malformed(f"the body is not JSON to rely on: {error}") from None
     if body.count(b"[") + body.count(b"{") > max_depth and _deeper(value, max_depth):
-        return _too_deep(max_depth)
-    return _first_unkept(value) if _SUSPECT.search(body) else None
+        raise _too_deep(max_depth)
+    if _SUSPECT.search(body) and (unkept := _first_unkept(value)) is not None:
+        raise Flawed(unkept)
+    return value
 
 
-def _malformed(detail: str, **members: Any) -> Problem:
-    return problem_of({"slug": "malformed-json", "detail": detail, **members})
+def _malformed(detail: str, **members: Any) -> Flawed:
+    return Flawed(problem_of({"slug": "malformed-json", "detail": detail, **members}))
 
 
-def _too_deep(most: int) -> Problem:
-    return problem_of({"slug": "body-too-deep", "detail": f"arrays and objects are nested deeper than {most} levels"})
+def _too_deep(most: int) -> Flawed:
+    detail = f"arrays and objects are nested deeper than {most} levels"
+    return Flawed(problem_of({"slug": "body-too-deep", "detail": detail}))
 
 
 def _object(members: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -62,6 +74,9 @@ def _object(members: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def _no_number(name: str) -> NoReturn:
     raise _Unclear(f"{name} is not a number of JSON")
+
+
+_DECODER = json.JSONDecoder(object_pairs_hook=_object, parse_constant=_no_number)
 
 
 def _deeper(value: Any, most: int) -> bool:

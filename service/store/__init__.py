@@ -7,6 +7,7 @@ from service.store.jobs import JobRepository, JobState, NewJob, StoredJob
 from service.store.policies import PolicyRepository, StoredPolicy
 from service.store.store import Store, Transaction
 from service.store.templates import StoredPair, StoredTemplate, TemplateRepository
+from service.store.versions import Versions
 
 __all__ = [
     "AnswerRepository",
@@ -27,4 +28,5 @@ __all__ = [
     "StoredTemplate",
     "TemplateRepository",
     "Transaction",
+    "Versions",
 ]

@@ -11,6 +11,7 @@ from sqlalchemy import Connection, Text, bindparam, cast, delete, insert, select
 from models.errors import Place
 from service.errors import EnvironmentExistsError, UnknownEnvironmentError
 from service.store.tables import environments
+from service.store.versions import WORLDS, raise_version
 
 _TEXT = select(cast(environments.c.data, Text)).where(environments.c.name == bindparam("name"))
 
@@ -63,6 +64,7 @@ class EnvironmentRepository:
             detail = f'an environment called "{name}" is stored already; PUT replaces it'
             raise EnvironmentExistsError(detail, places=[Place("/name", detail)])
         self._connection.execute(insert(environments).values(name=name, kind=kind, data=dict(data), revision=1))
+        raise_version(self._connection, WORLDS)
         return StoredEnvironment(name, kind, data, 1)
 
     def put(self, name: str, kind: str, data: Mapping[str, Any]) -> StoredEnvironment:
@@ -75,12 +77,14 @@ class EnvironmentRepository:
             .where(environments.c.name == name)
             .values(kind=kind, data=dict(data), revision=revision + 1)
         )
+        raise_version(self._connection, WORLDS)
         return StoredEnvironment(name, kind, data, revision + 1)
 
     def delete(self, name: str) -> None:
         """Remove the environment; raises `UnknownEnvironmentError`."""
         self.get(name)
         self._connection.execute(delete(environments).where(environments.c.name == name))
+        raise_version(self._connection, WORLDS)
 
 
 def _unknown(name: str) -> UnknownEnvironmentError:

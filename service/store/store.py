@@ -16,6 +16,7 @@ from service.store.jobs import JobRepository
 from service.store.policies import PolicyRepository
 from service.store.tables import facts
 from service.store.templates import TemplateRepository
+from service.store.versions import Versions, read_versions
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +49,10 @@ class Transaction:
     def answers(self) -> AnswerRepository:
         """Answers by idempotency key."""
         return AnswerRepository(self.connection)
+
+    def versions(self) -> Versions:
+        """What counts the changes of all that translations go by."""
+        return read_versions(self.connection)
 
     def fact(self, name: str) -> str | None:
         """A single fact about the store, or None."""

@@ -11,12 +11,11 @@ from sqlalchemy import Connection, Row, bindparam, delete, insert, select, updat
 from service.errors import UnknownTemplateError
 from service.store.examples import ExampleRepository, StoredExample
 from service.store.tables import facts, templates
+from service.store.versions import LESSONS, raise_version
 
-VERSION = "lessons"
-"""Fact that counts the changes of what was taught."""
 # Every translation asks these two; built once, they take half the time.
 _AMONG = select(templates).where(templates.c.task.in_(bindparam("tasks", expanding=True)))
-_VERSION = select(facts.c.value).where(facts.c.name == VERSION)
+_VERSION = select(facts.c.value).where(facts.c.name == LESSONS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,11 +126,7 @@ class TemplateRepository:
         self._changed()
 
     def _changed(self) -> None:
-        version = self.version()
-        if version:
-            self._connection.execute(update(facts).where(facts.c.name == VERSION).values(value=str(version + 1)))
-        else:
-            self._connection.execute(insert(facts).values(name=VERSION, value="1"))
+        raise_version(self._connection, LESSONS)
 
     def _with_examples(self, rows: Iterable[Row[Any]]) -> dict[str, StoredTemplate]:
         found = {row.task: row for row in rows}

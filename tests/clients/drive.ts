@@ -1,7 +1,7 @@
 // Drives a server with openapi-generator's TypeScript client: SERVER as the argument.
 import {
   Configuration, EnvironmentsApi, JobsApi, LanguageApi, PlanningApi, PoliciesApi, ResponseError,
-  JobOutFromJSON, type EnvironmentSpec, type JobOut, type Problem,
+  type EnvironmentSpec, type JobOut, type Problem,
 } from "./index";
 
 declare const process: { argv: string[]; exit(status: number): never };
@@ -38,6 +38,7 @@ async function main(server: string): Promise<void> {
   const plan = await planning.plan({
     planRequest: { text: "Pickup the sphere", environment: "toys-4x1-sphere" }, prefer: "wait=60",
   });
+  if ("state" in plan) throw new Error("within the wait it is no job");
   check(plan.outcome === "solved" && plan.policy !== null, plan);
   const policies = new PoliciesApi(configuration);
   let memory = plan.initial.memory;
@@ -56,11 +57,11 @@ async function main(server: string): Promise<void> {
   const kept = (await environments.getEnvironment({ name: tiny.name })).spec;
   check(kept.kind === "explicit" && kept.transitions![0].to[0][1] === 0.9, kept);
 
-  const accepted = await planning.planRaw({
+  const accepted = await planning.plan({
     planRequest: { ltl: "F goal", environment: tiny.name }, prefer: "respond-async",
   });
-  check(accepted.raw.status === 202, accepted.raw.status);
-  let job: JobOut = JobOutFromJSON(await accepted.raw.json());
+  if (!("state" in accepted)) throw new Error("what is asked for later is a job");
+  let job: JobOut = accepted;
   while (job.state === "queued" || job.state === "running") {
     await new Promise((resolve) => setTimeout(resolve, 50));
     job = await new JobsApi(configuration).getJob({ jobId: job.id });

@@ -1,0 +1,41 @@
+"""Versions of what translations go by: numbers that grow with every change, as facts of the store.
+
+They are raised in the transaction of the change, by writers that have the lock of all `exclusive` ones.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sqlalchemy import Connection, insert, select, update
+
+from service.store.tables import facts
+
+LESSONS = "lessons"
+"""Fact that counts the changes of what was taught."""
+WORLDS = "worlds"
+"""Fact that counts the changes of environments."""
+
+_READ = select(facts.c.name, facts.c.value).where(facts.c.name.in_((LESSONS, WORLDS)))
+
+
+class Versions(NamedTuple):
+    """As long as one stays the same, so does all that it counts the changes of."""
+
+    lessons: int
+    worlds: int
+
+
+def read_versions(connection: Connection) -> Versions:
+    """The versions, as the transaction sees them."""
+    found = dict(connection.execute(_READ).tuples().all())
+    return Versions(int(found.get(LESSONS, 0)), int(found.get(WORLDS, 0)))
+
+
+def raise_version(connection: Connection, name: str) -> None:
+    """Note a change."""
+    value = connection.scalar(select(facts.c.value).where(facts.c.name == name))
+    if value is None:
+        connection.execute(insert(facts).values(name=name, value="1"))
+    else:
+        connection.execute(update(facts).where(facts.c.name == name).values(value=str(int(value) + 1)))
