@@ -31,7 +31,7 @@ ALONE = 0.5
 SURE = 0.99
 """Probability of being one task from which the other network is not asked at all."""
 CERTAIN = 0.9
-"""Probability of being one task from which a sequence is not looked at."""
+"""Probability of being one task from which a sequence is not looked at, nor any mark of punctuation."""
 TAUGHT = 0.9
 """Most share of the taught readings of a clause; the environment may turn it round."""
 LEAST = 0.02
@@ -40,6 +40,8 @@ LEAST_SHARE = 0.1
 """Nor those that are less probable than this share of the likeliest."""
 UNDERSTOOD = 0.2
 """Compositions that are less probable together than this are not read."""
+REFUSED = 0.25
+"""Odds of texts that ask for nothing, to those in training: the other network refuses most of them by itself."""
 APART = 0.7
 """Share of the readings of each clause by itself, where two of them may also be one task."""
 MOST = 4
@@ -97,6 +99,8 @@ class ComposedTranslator:
         whole = understand.alone(text)
         if understood(whole) >= SURE:
             return whole[:candidates]
+        if understood(whole) >= CERTAIN:
+            spoken = unmarked(spoken)  # how one task is punctuated changes nothing
         shapes, refusal = self._shapes(spoken)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
@@ -163,7 +167,9 @@ class ComposedTranslator:
                 found[arranged] = found.get(arranged, 0.0) + reading.probability
         ranked = sorted(found.items(), key=lambda item: -item[1])[:MOST]
         least = max(LEAST, ranked[0][1] * LEAST_SHARE) if ranked else 0.0
-        return [replace(arranged, share=share) for arranged, share in ranked if share >= least], refusal
+        every = 1.0 - (1.0 - REFUSED) * refusal
+        kept = [replace(arranged, share=share / every) for arranged, share in ranked if share >= least]
+        return kept, REFUSED * refusal / every
 
 
 def _arranged(shape: str, spans: Sequence[Span], spoken: Sequence[str]) -> Arrangement | None:
