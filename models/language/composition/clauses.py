@@ -32,6 +32,8 @@ JOINING = frozenset({"either", "both", "and", "or", "then", "first", "but"})
 """Words in front of all clauses that are no part of their verb."""
 LIKELIER = 0.75
 """Share of the first of two ways to complete a clause, or to read a pronoun; the environment may turn it round."""
+LED = 0.8
+"""Probability that a bare clause and the words before it are one task, from which it is read so."""
 ALTERNATIVES = 4
 """Readings of one clause that are looked at."""
 MOST = 12
@@ -40,14 +42,15 @@ MOST = 12
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """One clause: its number in the shape, its words, whether it is avoided or awaited, and whether it is a task that
-    is said in several clauses.
+    """One clause: its number in the shape, its words, whether it is avoided or awaited, whether it is a task that is
+    said in several clauses, and the words between the clause before and it.
     """
 
     number: int
     words: tuple[str, ...]
     forbidden: bool
     several: bool = False
+    lead: tuple[str, ...] = ()
 
 
 def readings(
@@ -59,6 +62,11 @@ def readings(
     understand.prepare(" ".join(clause.words) for clause in clauses)
     spoken = {clause.number: _spoken(clause, understand) for clause in clauses}
     whole = {clause.number for clause in clauses if not is_bare(clause.words, spoken[clause.number])}
+    led = {
+        clause.number: said for clause in clauses if clause.number not in whole and (said := _led(clause, understand))
+    }
+    whole.update(led)
+    spoken.update(led)
     texts = {
         clause.number: _completions(clause, _donor(clauses, place, whole), spoken, before)
         for place, clause in enumerate(clauses)
@@ -94,6 +102,18 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
     assert isinstance(query, ContextualQuery)
     named = {word for phrase in query.arguments for word in phrase.split()}
     return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
+
+
+def _led(clause: Clause, understand: Understand) -> Sequence[Translation]:
+    """What a bare clause says with the words before it, if they are its verb: "then go to", "the attic"."""
+    lead = [word for word in clause.lead if word not in JOINING]
+    if not lead or clause.forbidden:
+        return ()
+    text = " ".join((*lead, *clause.words))
+    understand.prepare([text])
+    said = understand(text)
+    likely = sum(translation.confidence for translation in said)
+    return said if likely >= LED and not is_bare(text.split(), said) else ()
 
 
 def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | None:

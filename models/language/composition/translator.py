@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Protocol, Self
 
@@ -184,7 +185,10 @@ def _arranged(shape: str, spans: Sequence[Span], spoken: Sequence[str]) -> Arran
         return Arrangement(shape)
     clauses.sort(key=lambda pair: pair[0][0])
     before = unmarked(spoken[: clauses[0][0][0]])
-    return Arrangement(shape, tuple(c for _, c in clauses), tuple(span for span, _ in clauses), before)
+    ordered = tuple(span for span, _ in clauses)
+    leads = [(), *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
+    led = tuple(replace(clause, lead=lead) for (_, clause), lead in zip(clauses, leads, strict=True))
+    return Arrangement(shape, led, ordered, before)
 
 
 def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from models.language.human.baseline import LinearBaseline
@@ -125,8 +125,7 @@ class WaypointSystem:
 def _fitted(commands: Sequence[Lifted], start_name: str, *, seed: int, plan: Plan) -> SpanReader:
     start = shipped(start_name)
     course = HumanCourse.of(commands, waypoints(), seed=seed, known=start.config.words, drawn=plan.drawn)
-    settings = replace(plan.settings, embedding=start.config.embedding)
-    return SpanReader.of(train(course, settings, seed=seed, words=word_reader(), start=start), word_reader())
+    return SpanReader.of(train(course, plan.sized(start), seed=seed, words=word_reader(), start=start), word_reader())
 
 
 def _best(read: Read) -> str:

@@ -34,6 +34,11 @@ class Plan:
     settings: Settings = field(default_factory=lambda: Settings(epochs=14, batch=64, hide=0.1, hide_frame=0.0))
     drawn: int = 1500
 
+    def sized(self, start: SpanNet) -> Settings:
+        """The settings for a network of the sizes of another, which it can start from."""
+        sizes = {size: getattr(start.config, size) for size in ("embedding", "projection", "encoder", "layers")}
+        return replace(self.settings, **sizes)
+
 
 BATCH = 64
 
@@ -102,8 +107,7 @@ def fit(
     for number, name in enumerate(plan.starts):
         start = shipped(name)
         course = HumanCourse.of(usual, environment, seed=seed + number, known=start.config.words, drawn=plan.drawn)
-        settings = replace(plan.settings, embedding=start.config.embedding)
-        model = train(course, settings, seed=seed + number, words=word_reader(), start=start)
+        model = train(course, plan.sized(start), seed=seed + number, words=word_reader(), start=start)
         readers.append(SpanReader.of(model, word_reader()))
         log(f"network {number + 1} of {len(plan.starts)}")
     return SpanSystem(readers, environment, OperandOrder.of(usual))

@@ -113,3 +113,14 @@ def test_it_is_what_the_last_clause_was_about() -> None:
     """ "Pick up the ball, put it in the box, then pick it up": the ball, although the box is nearer."""
     (first, *_) = read("pick up the ball", "put it in the box", "lift one of them")
     assert first[0] == ["pickup(ball)", "put(ball, box)", "pickup(ball)"]
+
+
+def test_a_bare_name_has_the_verb_right_before_it() -> None:
+    """ "Pick up the ball, then go to | the zoo": not "pick up the zoo"."""
+    clauses = [
+        Clause(1, ("pick", "up", "the", "ball"), False),
+        Clause(2, ("zoo",), False, lead=("then", "go", "to", "the")),
+    ]
+    (first, *others) = readings(clauses, understand)
+    assert [str(query) for query in first[0].values()] == ["pickup(ball)", "go(zoo)"]
+    assert others == []
