@@ -26,7 +26,7 @@ WORLDS = 3
 class Settings:
     """The hyper-parameters of a run."""
 
-    steps: int = 500
+    steps: int = 300
     tasks: int = 32  # compared in a step
     refused: int = 16  # texts in a step that ask for nothing
     learning_rate: float = 1e-3  # AdamW; falls to zero along a cosine
