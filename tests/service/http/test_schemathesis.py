@@ -20,12 +20,15 @@ PROGRAM = Path(sys.executable).with_name("schemathesis")
 LEFT_OUT = (
     "positive_data_acceptance",  # what fits the schema may yet mean nothing: a formula, a name, a world
     "ignored_auth",
+    "ensure_resource_availability",  # an Idempotency-Key that comes again is answered 201, also after a DELETE
 )
 CONFIG = """
 [checks]
-negative_data_rejection.expected-statuses = [400, 401, 403, 404, 405, 406, 409, 415, 422, 428, 429, 431, "5xx"]
+negative_data_rejection.expected-statuses = [400, 401, 403, 404, 405, 406, 409, 413, 415, 422, 428, 429, 431, "5xx"]
 """
-"""Its own list and 431: what is too long for a parameter may be too long for a head, which is refused first."""
+"""Its own list, and 413 and 431: what is too long by the schema may be too long for a body or a head, and is refused as
+that first.
+"""
 
 
 def run(folder: Path, *options: str) -> None:
@@ -36,7 +39,8 @@ def run(folder: Path, *options: str) -> None:
         further = ["--exclude-checks", ",".join(LEFT_OUT), "--suppress-health-check", "all", "--warnings", "off"]
         said = ["--continue-on-failure", *further, *options]
         result = subprocess.run([*command, *said], cwd=folder, capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stdout[-20_000:] + result.stderr
+    lines = [line[:500] for line in result.stdout.splitlines()]  # a failure may be a body of a megabyte
+    assert result.returncode == 0, "\n".join(lines)[-20_000:] + result.stderr
     assert "Tested: 0" not in result.stdout
 
 
