@@ -112,7 +112,7 @@ class TaughtCache:
 
     def of(self, transaction: Transaction) -> Taught:
         """What was taught, as the transaction sees it."""
-        version = transaction.templates.version()
+        version = transaction.versions().lessons
         held = self._held
         if held is not None and held.version == version:
             return held

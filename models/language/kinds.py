@@ -6,7 +6,6 @@ taught with, and not `move_to`, the first is said of other things.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Hashable, Sequence
 
 from models.queries import ContextualQuery, GroundedQuery, Query, Template
@@ -19,10 +18,10 @@ def strangers(grounded: Sequence[GroundedQuery | None], template_of: Callable[[s
     None of a reading that is not grounded.
     """
     counts = [0 if query is None else _strange(query, template_of) for query in grounded]
-    least: dict[Hashable, int] = defaultdict(lambda: 1_000)
+    least: dict[Hashable, int] = {}
     outlines = [None if query is None else _outline(query.query) for query in grounded]
     for outline, count in zip(outlines, counts, strict=True):
-        least[outline] = min(least[outline], count)
+        least[outline] = min(count, least.get(outline, count))
     return [count - least[outline] for outline, count in zip(outlines, counts, strict=True)]
 
 

@@ -14,6 +14,7 @@ from functools import lru_cache
 
 import procrastinate
 from anyio.to_thread import run_sync
+from sqlalchemy import text
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
@@ -36,6 +37,18 @@ SWEEP_S = 0.5
 FORGET_S = 60.0
 """How often it is forgotten what has been kept long enough."""
 
+_FORGOTTEN = text(
+    """
+    SELECT jobs.id, jobs.queue FROM jobs
+    WHERE jobs.ended_at IS NULL AND jobs.owner IS NULL AND NOT EXISTS (
+        SELECT 1 FROM procrastinate_jobs AS entries
+        WHERE entries.args ->> 'job_id' = jobs.id AND entries.status IN ('todo', 'doing')
+    )
+    FOR UPDATE OF jobs SKIP LOCKED
+    """
+)
+"""Jobs that nobody runs and that are not in the queue."""
+
 _log = logging.getLogger("cqltl")
 
 
@@ -57,13 +70,20 @@ def enqueue(transaction: Transaction, job_id: str, queue: str) -> None:
 
 
 def sweep(store: Store) -> None:
-    """Put the jobs of workers that died into the queue again, and end those beyond their deadline."""
+    """Put jobs into the queue again whose workers died or were taken from it in vain, and end those beyond their
+    deadline.
+
+    A worker that loses the database while it claims a job takes it from the queue all the same.
+    """
     with store.read() as transaction:
         found = transaction.jobs.abandoned()
     for job in found:
         with store.write(exclusive=False) as transaction:
             if transaction.jobs.abandon(job.id):
                 enqueue(transaction, job.id, job.queue)
+    with store.write(exclusive=False) as transaction:
+        for job_id, queue in transaction.connection.execute(_FORGOTTEN):
+            enqueue(transaction, job_id, queue)
     fail_overdue(store)
 
 

@@ -120,7 +120,11 @@ class _QueueWorker:
 
     async def _run(self, job_id: str) -> None:
         """Run a job to its end, unless it has ended or somebody else runs it."""
-        job = await self._runner.blocking(lambda: self._claim(job_id))
+        try:
+            job = await self._runner.blocking(lambda: self._claim(job_id))
+        except SQLAlchemyError as error:  # the sweep finds it, and puts it into the queue again
+            _log.warning("job %s could not be claimed: %s", job_id, error)
+            return
         if job is not None:
             self._runner.run(job)
             await self._runner.ended(job_id, None)

@@ -10,12 +10,11 @@ from sqlalchemy import Connection, Row, bindparam, delete, insert, select, updat
 
 from service.errors import UnknownTemplateError
 from service.store.examples import ExampleRepository, StoredExample
-from service.store.tables import facts, templates
+from service.store.tables import templates
 from service.store.versions import LESSONS, raise_version
 
-# Every translation asks these two; built once, they take half the time.
+# Every translation asks this; built once, it takes half the time.
 _AMONG = select(templates).where(templates.c.task.in_(bindparam("tasks", expanding=True)))
-_VERSION = select(facts.c.value).where(facts.c.name == LESSONS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +66,6 @@ class TemplateRepository:
     def examples(self) -> ExampleRepository:
         """What was taught by utterances."""
         return ExampleRepository(self._connection)
-
-    def version(self) -> int:
-        """Counts the changes of what was taught: as long as it stays, so do all templates and examples."""
-        return int(self._connection.scalar(_VERSION) or 0)
 
     def find(self, task: str) -> StoredTemplate | None:
         """The template of the task, or None."""

@@ -20,7 +20,9 @@ _READ = select(facts.c.name, facts.c.value).where(facts.c.name.in_((LESSONS, WOR
 
 
 class Versions(NamedTuple):
-    """As long as one stays the same, so does all that it counts the changes of."""
+    """As long as one stays the same, so does all that it counts the changes of: `lessons` all templates and examples,
+    `worlds` all environments.
+    """
 
     lessons: int
     worlds: int
@@ -28,8 +30,8 @@ class Versions(NamedTuple):
 
 def read_versions(connection: Connection) -> Versions:
     """The versions, as the transaction sees them."""
-    found = dict(connection.execute(_READ).tuples().all())
-    return Versions(int(found.get(LESSONS, 0)), int(found.get(WORLDS, 0)))
+    found = {name: int(value) for name, value in connection.execute(_READ)}
+    return Versions(found.get(LESSONS, 0), found.get(WORLDS, 0))
 
 
 def raise_version(connection: Connection, name: str) -> None:

@@ -13,7 +13,7 @@ from models.language.spans.tags import Span
 from models.language.tokens import is_mark
 from models.queries import Composition, ContextualQuery, Operator, Query
 
-JOINING = (Operator.THEN, Operator.AND)
+JOINED_BY = (Operator.THEN, Operator.AND)
 """Operators of which two operands may be one task: "load the ball into the crate, carry it to the hall" ships it."""
 _CLAUSE = re.compile(r"clause\((\d+)\)")
 
@@ -66,7 +66,7 @@ def _without(shape: Query, one: int, other: int) -> Query | None:
     if isinstance(shape, ContextualQuery):
         return None
     names = [operand.arguments[0] if isinstance(operand, ContextualQuery) else "" for operand in shape.operands]
-    if shape.operator in JOINING and str(one) in names and str(other) in names:
+    if shape.operator in JOINED_BY and str(one) in names and str(other) in names:
         kept = [operand for operand, name in zip(shape.operands, names, strict=True) if name != str(other)]
         return Composition(shape.operator, tuple(kept)) if len(kept) > 1 else kept[0]
     for place, operand in enumerate(shape.operands):

@@ -61,6 +61,8 @@ def readings(
     """
     understand.prepare(" ".join(clause.words) for clause in clauses)
     spoken = {clause.number: _spoken(clause, understand) for clause in clauses}
+    if any(clause.several and not spoken[clause.number] for clause in clauses):
+        return  # what is no task in several clauses is no name either
     whole = {clause.number for clause in clauses if not is_bare(clause.words, spoken[clause.number])}
     led = {
         clause.number: said for clause in clauses if clause.number not in whole and (said := _led(clause, understand))

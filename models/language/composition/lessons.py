@@ -39,7 +39,7 @@ UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
 """Marks that are left out of the other texts."""
-PLACES = ("location", "first")
+PLACE_KINDS = ("location", "first")
 """Rooms, and landmarks of a city."""
 FRAMED, MISSPELLED, PRONOUN = 0.25, 0.12, 0.35
 
@@ -158,7 +158,7 @@ class CompositionLessons:
         return Item(tuple(text))
 
     def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
-        kind = generator.choice(PLACES) if slot == "place" else CLAUSE_SLOTS[slot]
+        kind = generator.choice(PLACE_KINDS) if slot == "place" else CLAUSE_SLOTS[slot]
         name, article = self.single.names.draw(kind, generator), not bare
         if article and slot != "color" and generator.random() < REFERRED:
             name, article = self.single.refer(name, kind, False, generator)
@@ -191,7 +191,7 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
 def _kinds() -> Mapping[str, Sequence[str]]:
     """The kinds of things that a word names by itself."""
     found: dict[str, list[str]] = {}
-    for kind in (*PLACES, "object", "container"):
+    for kind in (*PLACE_KINDS, "object", "container"):
         for phrase in names().seen[kind]:
             if len(phrase) == 1:
                 found.setdefault(phrase[0], []).append(kind)

@@ -178,22 +178,22 @@ def test_what_was_taught_has_a_version_and_examples_can_go_one_by_one(url: str) 
     store, added = Store(url), StoredExample("get hold of a", "t(a)")
     taught = replace(template("t"), examples=(*template("t").examples, added))
     with store.write() as transaction:
-        assert transaction.templates.version() == 0
+        assert transaction.versions().lessons == 0
         transaction.templates.put(template("t"))
         transaction.templates.examples.note([(template("t").examples[0].id, b"read"), (added.id, b"not there yet")])
         transaction.templates.put(taught)
-        assert transaction.templates.version() == 2
+        assert transaction.versions().lessons == 2
         assert transaction.templates.get("t") == taught
         assert transaction.templates.examples.readings() == {template("t").examples[0].id: b"read"}
         transaction.templates.delete_example("t", taught.examples[0].id)
         assert transaction.templates.get("t") == replace(taught, examples=(added,), revision=2)
-        assert transaction.templates.version() == 3
+        assert transaction.versions().lessons == 3
         with pytest.raises(UnknownExampleError):
             transaction.templates.delete_example("t", taught.examples[0].id)
         transaction.templates.delete("t")
         assert transaction.templates.every() == {}
         assert transaction.templates.examples.every() == {}
-        assert transaction.templates.version() == 4
+        assert transaction.versions().lessons == 4
     store.close()
 
 
