@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
+from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
 from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
 from models.language.teaching import TaughtTranslator
@@ -109,7 +110,7 @@ class Hearing:
     template_of: Callable[[str], Template | None]
 
     def readings(self, text: str, environment: Environment | None, *, candidates: int) -> tuple[Reading, ...]:
-        """Up to `candidates` readings of a command, best first; none when no task fits.
+        """Up to `candidates` readings of a command, best first; none when no task fits, or where it is a formula.
 
         In an environment, what makes sense there comes first. Taught readings that make no sense give way to readings
         that do: "go to the sphere", taught for picking up, does not keep "go to the kitchen" from being understood.
@@ -117,6 +118,8 @@ class Hearing:
         Raises:
             TextTooLongError: the text is beyond the limits of a command.
         """
+        if is_formal(text):
+            return ()
         wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
         translator, lessons = self.translator, self.lessons
         if lessons is None:

@@ -119,7 +119,7 @@ def test_redetermined_by_hand() -> None:
     chosen = {"object": "apple", "container": "box", "location": "bedroom"}
     example = fill("manipulation", "ship", wording, chosen)
     texts = {redetermined(example, random.Random(seed), part="held_out").text for seed in range(200)}
-    assert "His box comes first, put their apple in the box, the box in your bedroom" in texts
+    assert "His box comes first, put their apple in the box, the box in its bedroom" in texts
     texts = {redetermined(example, random.Random(seed), part="training").text for seed in range(2000)}
     assert "box comes first, put an apple in the box, the box in bedroom" in texts
     assert not any("a apple" in text for text in texts)

@@ -57,6 +57,7 @@ def shelf(monkeypatch: pytest.MonkeyPatch) -> _Shelf:
     monkeypatch.setattr(default_system, "load_model", shelf.load)
     monkeypatch.setattr(default_system, "save_model", shelf.save)
     monkeypatch.setattr(default_system, "train", shelf.train)
+    monkeypatch.setattr(default_system.Lessons, "load", lambda *, seed: seed)
     monkeypatch.setattr(default_system.SpanTranslator, "of", lambda model: model)
     return shelf
 

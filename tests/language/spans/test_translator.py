@@ -59,7 +59,6 @@ NO_TASK = [
     "never go to the bakery",
     "throw the sphere",
     "SELECT * FROM users; --",
-    "F (in(cylinder, box))",
     "привет, как дела?",
     "你好",
 ]
