@@ -9,7 +9,7 @@ serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest -n 2 --dist loadgroup
+	$(BIN)/python -m pytest -n 3 --dist loadgroup  # a third of the time the tests wait: three keep two cores busy
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest

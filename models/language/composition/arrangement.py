@@ -61,6 +61,12 @@ def unmarked(spoken: Sequence[str]) -> tuple[str, ...]:
     return tuple(word for word in spoken if not is_mark(word))
 
 
+def unended(spoken: Sequence[str]) -> tuple[str, ...]:
+    """The words and marks without the marks at the end."""
+    end = max((place for place, word in enumerate(spoken, start=1) if not is_mark(word)), default=0)
+    return tuple(spoken[:end])
+
+
 def _without(shape: Query, one: int, other: int) -> Query | None:
     """A shape without a clause that stands right behind another under the same operator; None if it does not."""
     if isinstance(shape, ContextualQuery):

@@ -10,7 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Protocol, Self
 
-from models.language.composition.arrangement import Arrangement, unmarked
+from models.language.composition.arrangement import Arrangement, unended, unmarked
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
 from models.language.composition.marks import MarkedReader
@@ -102,6 +102,8 @@ class ComposedTranslator:
             return whole[:candidates]
         if understood(whole) >= CERTAIN:
             spoken = unmarked(spoken)  # how one task is punctuated changes nothing
+        elif understood(whole) >= ALONE:
+            spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):

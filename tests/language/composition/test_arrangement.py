@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from models.language.composition.arrangement import Arrangement
+from models.language.composition.arrangement import Arrangement, unended
 from models.language.composition.clauses import Clause
 
 TEXT = ["load", "it", ",", "carry", "it", ";", "then", "rest", ",", "no", "noise"]
@@ -59,3 +59,16 @@ def test_clauses_keep_their_order_in_the_text_and_are_marked() -> None:
 )
 def test_what_is_never_one_task(arrangement: Arrangement) -> None:
     assert joined(arrangement) == []
+
+
+@pytest.mark.parametrize(
+    ("spoken", "expected"),
+    [
+        (("go", ",", "now", "?", "!"), ("go", ",", "now")),
+        (("go", ",", "now"), ("go", ",", "now")),
+        ((".", "."), ()),
+        ((), ()),
+    ],
+)
+def test_the_end_of_a_text_is_left_out(spoken: tuple[str, ...], expected: tuple[str, ...]) -> None:
+    assert unended(spoken) == expected

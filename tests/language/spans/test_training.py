@@ -16,6 +16,8 @@ from models.language.spans import SpanModel, load_model, save_model
 from models.language.spans.lessons import Lessons
 from models.language.spans.training import Epoch, Settings, train
 
+pytestmark = pytest.mark.xdist_group("training")  # the small model is fitted once
+
 SMALL = Settings(epochs=8, share=0.1, batch=16, embedding=24, projection=24, encoder=32, layers=1)
 
 
