@@ -3,13 +3,16 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test promises fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest -n 3 --dist loadgroup  # a third of the time the tests wait: three keep two cores busy
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
+
+promises: $(VENV)/.dev  # what is promised of jobs, on both executors: processes and database servers are killed
+	$(BIN)/python -m pytest -m 'long or not long' tests/service/jobs
 
 fuzz: $(VENV)/.dev  # the tests with random examples never seen before
 	CQLTL_FUZZ=1 $(BIN)/python -m pytest

@@ -16,12 +16,10 @@ from models.language.spans import SpanModel, load_model, save_model
 from models.language.spans.lessons import Lessons
 from models.language.spans.training import Epoch, Settings, train
 
-pytestmark = pytest.mark.xdist_group("training")  # the small model is fitted once
-
 SMALL = Settings(epochs=8, share=0.1, batch=16, embedding=24, projection=24, encoder=32, layers=1)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def trained() -> tuple[SpanModel, list[Epoch]]:
     curve: list[Epoch] = []
     return train(Lessons.load(seed=3), SMALL, seed=3, log=curve.append), curve

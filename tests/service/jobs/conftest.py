@@ -30,9 +30,9 @@ def shared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     found.close()
 
 
-@pytest.fixture(params=KINDS)
+@pytest.fixture(params=[KINDS[0], pytest.param(KINDS[1], marks=pytest.mark.long)])
 def deploy(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Deploy]:
-    """Makes deployments of a test's own, with settings of its own."""
+    """Makes deployments of a test's own, with settings of its own. It takes minutes: `make promises` tries both."""
     found: list[Deployment] = []
 
     def make(**environment: str) -> Deployment:
