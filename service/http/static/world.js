@@ -191,7 +191,7 @@ export class World {
         rect.style.fillOpacity = 0.05 + 0.45 * heat;
         parts.push(rect);
       }
-      if (text) parts.push(shape("text", { x: left + CELL - 6, y: top + 62, class: "value" }, text));
+      if (text) parts.push(shape("text", { x: left + CELL - 6, y: top + 84, class: "value" }, text));
       if (arrow.length > 1) parts.push(shape("text", { x: left + 5, y: top + 90, class: "doing" }, arrow));
       else if (arrow) parts.push(shape("text", { x: left + 7, y: top + 92, class: "arrow-sign" }, arrow));
       return parts;
