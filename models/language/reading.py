@@ -134,7 +134,8 @@ def read(
 ) -> tuple[Reading, ...]:
     """As `rank`, in the order and with the confidences of the translations."""
     readings = []
-    named = () if environment is None else _named(text, environment)
+    translations = tuple(translations)
+    named = _named(text, environment) if translations and environment is not None else ()
     for translation in translations:
         templates = _templates(translation.query, template_of)
         if templates is not None:

@@ -27,6 +27,7 @@ from safetensors.torch import load as load_tensors
 from torch import Tensor, nn
 from torch.nn import functional
 
+from models.language.encoder.packed import PackedLinear
 from models.language.encoder.pieces import Pieces
 from models.language.errors import WeightsError
 
@@ -175,13 +176,11 @@ def word_means(states: Tensor, owner: Tensor, width: int) -> Tensor:
     return (total / count.clamp(min=1.0)[:, :, None])[:, :width]
 
 
-def _linear(weights: Mapping[str, Tensor], *names: str) -> nn.Linear:
+def _linear(weights: Mapping[str, Tensor], *names: str) -> PackedLinear:
     """A linear layer, or several side by side."""
-    weight = torch.cat([weights[f"{name}.weight"].float() for name in names])
-    layer = nn.Linear(weight.shape[1], weight.shape[0])
-    layer.weight = nn.Parameter(weight)
-    layer.bias = nn.Parameter(torch.cat([weights[f"{name}.bias"].float() for name in names]))
-    return layer
+    return PackedLinear(
+        *(torch.cat([weights[f"{name}.{part}"].float() for name in names]) for part in ("weight", "bias"))
+    )
 
 
 def _norm(weights: Mapping[str, Tensor], name: str) -> nn.LayerNorm:

@@ -20,7 +20,7 @@ from models.language.encoder import Encoder, encoder
 from models.language.matching.late import Command, Known, KnownWords, Vectors
 from models.language.matching.model import MatchModel, load_model
 from models.language.matching.network import ON, OUTSIDE
-from models.language.spans.decoding import best_sequences, log_total
+from models.language.spans.decoding import best_sequences, log_totals
 from models.language.spans.tags import Span
 from models.language.teaching.utterance import Utterance, plain
 from models.language.teaching.wording import CONNECTIVES
@@ -227,13 +227,13 @@ class Matcher:
     def _seen(self, said: tuple[str, ...], vectors: torch.Tensor, named: Sequence[Span] = ()) -> list[_Seen]:
         """The likeliest ways to see what a text with the vectors [S, D] mentions; what is named in it is one."""
         network = self.model.network
-        emissions = network.tags(vectors[None])[0].double().numpy()
-        moves = (network.transition + network.allowed).double().numpy()
-        start = network.allowed_start.double().numpy()
-        total = log_total(emissions, moves, start)
+        emissions = network.tags(vectors[None]).double().numpy()  # [1, S, L]
+        moves = (network.transition + network.allowed).double().numpy()[None]
+        start = network.allowed_start.double().numpy()[None]
+        (total,) = log_totals(emissions, moves, start)
         ways: dict[tuple[Span, ...], float] = {_distinct(said, named): NAMED} if named else {}
         share = 1.0 - sum(ways.values())
-        for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES):
+        for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES)[0]:
             spans = _distinct(said, _spans(tags))
             ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
         known = _distinct(said, named)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Self
 
 import torch
 
 from models.language.encoder import WordReader, encoder
-from models.language.spans.decoding import TagScores, best_sequences, log_total
+from models.language.spans.decoding import TagScores, best_sequences, log_totals
 from models.language.spans.model import SpanModel
 from models.language.spans.network import TextBatch
 from models.language.spans.tags import OUTSIDE, Span, begins, mentions_of
@@ -79,26 +79,25 @@ class SpanReader:
 
     def _readings(self, spoken: Sequence[str], emissions: TagScores, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
         """The readings of one text. `emissions` is [S, K, L]."""
+        likely = [task for task, probability in enumerate(tasks[:-1]) if probability >= LEAST_TASK]
+        if not likely:
+            return ()
+        # The tags of arguments that no class has are forbidden: leave them out.
+        used = begins(max(self.model.network.config.tasks[task][1] for task in likely))
+        said = emissions.transpose(1, 0, 2)[likely, :, :used]  # [N, S, L]
+        transitions, start = self._transitions[likely, :used, :used], self._start[likely, :used]
+        totals = log_totals(said, transitions, start).tolist()
+        least = [total + math.log(LEAST / tasks[task]) for task, total in zip(likely, totals, strict=True)]
+        found = best_sequences(said, transitions, start, count=SEQUENCES, least=least)
         return tuple(
-            reading
-            for task, probability in enumerate(tasks[:-1])
-            if probability >= LEAST_TASK
-            for reading in self._of_task(spoken, emissions[:, task], task, probability)
+            SpanReading(name, mentions, tasks[task] * math.exp(min(0.0, score - total)), self._strange(spoken, tags))
+            for task, total, sequences in zip(likely, totals, found, strict=True)
+            for name, arity in [self.model.network.config.tasks[task]]
+            for score, tags in sequences
+            if all(mentions := mentions_of(tags, arity))
         )
 
-    def _of_task(
-        self, spoken: Sequence[str], emissions: TagScores, task: int, probability: float
-    ) -> Iterator[SpanReading]:
-        """The readings of the best tag sequences of one class. `emissions` is [S, L]."""
-        name, arity = self.model.network.config.tasks[task]
-        used = begins(arity)  # the tags of arguments that the class does not have are forbidden: leave them out
-        emissions = emissions[:, :used]
-        transitions, start = self._transitions[task][:used, :used], self._start[task][:used]
-        total = log_total(emissions, transitions, start)
-        least = total + math.log(LEAST / probability)
-        for score, tags in best_sequences(emissions, transitions, start, count=SEQUENCES, least=least):
-            mentions = mentions_of(tags, arity)
-            if all(mentions):
-                named = (place for place, tag in enumerate(tags) if tag != OUTSIDE)
-                strange = frozenset(place for place in named if spoken[place] not in self._numbers)
-                yield SpanReading(name, mentions, probability * math.exp(min(0.0, score - total)), strange)
+    def _strange(self, spoken: Sequence[str], tags: Sequence[int]) -> frozenset[int]:
+        """The words that are taken for names and that wordings never use."""
+        named = (place for place, tag in enumerate(tags) if tag != OUTSIDE)
+        return frozenset(place for place in named if spoken[place] not in self._numbers)

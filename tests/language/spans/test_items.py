@@ -69,7 +69,8 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
             network.transition[task] + network.allowed[task],
             network.allowed_start[task],
         )
-        for _, tags in best_sequences(*(tensor.double().numpy() for tensor in field), count=10_000):
+        (found,) = best_sequences(*(tensor.double().numpy()[None] for tensor in field), count=10_000)
+        for _, tags in found:
             item = Item(text, name, mentions_of(tags, arity))
             total += float(likelihood(network, [item], encoder()).exp())
     assert total == pytest.approx(1.0, abs=1e-4)
