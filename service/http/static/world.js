@@ -4,6 +4,7 @@
 import { make, picture, shown, still } from "./dom.js";
 
 const CELL = 100, FIXTURE = [67, 31], ROBOT = [28, 47], FLOOR = 73, HELD = [19, -14], SHRUNK = 0.66, DEEPEST = 8;
+const LEAST_CELL = 56; // pixels of the screen: what is written in a cell can be read
 const SVG = "http://www.w3.org/2000/svg";
 
 export class World {
@@ -32,6 +33,7 @@ export class World {
     this.drawn = this.cells.size > 0;
     if (this.drawn) {
       this.svg.classList.add(this.columns * this.rows <= 4 ? "small" : "large");
+      this.svg.style.minWidth = `${this.columns * LEAST_CELL}px`;
       this.over = document.createElementNS(SVG, "g");
       this.over.setAttribute("class", "over");
       this.svg.querySelector(".way").before(this.over);
@@ -57,6 +59,15 @@ export class World {
       if (status) status.textContent = group.dataset.status.split(" ").map((a) => shown(state[name][a])).join(", ");
     }
     this.svg.querySelector("title").textContent = this.words(state);
+    this.#follow(spots.get(this.robot));
+  }
+
+  /** Where not all of the world fits in, the part where the robot is. */
+  #follow(spot) {
+    const { scrollWidth, clientWidth } = this.place;
+    this.place.tabIndex = scrollWidth > clientWidth ? 0 : -1;
+    if (spot && scrollWidth > clientWidth)
+      this.place.scrollLeft = (scrollWidth * (spot.x + CELL / 2)) / (CELL * this.columns) - clientWidth / 2;
   }
 
   /** What people call a cell, a thing or a value. */
