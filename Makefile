@@ -66,8 +66,9 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.hostile
 	$(BIN)/python -m benchmarks.slow_clients
 
-bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500 jobs; about half an hour
+bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500 jobs, plans stopped; about 40 minutes
 	$(BIN)/python -m benchmarks.reliability
+	$(BIN)/python -m benchmarks.stopping
 	$(BIN)/python -m pytest -m long tests/benchmarks
 
 bench-load: $(VENV)/.dev  # how much can be served, beside an empty endpoint; needs wrk

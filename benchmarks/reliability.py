@@ -16,7 +16,6 @@ import argparse
 import random
 import shutil
 import sqlite3
-import subprocess
 import sys
 import tempfile
 import threading
@@ -29,6 +28,7 @@ from typing import Any
 
 import httpx
 
+from benchmarks.processes import Usage, usage
 from benchmarks.server import address, serving, started
 
 FILE = "cqltl.sqlite3"
@@ -192,40 +192,6 @@ def write_at_once(folder: Path, writes: int, writers: int = 8) -> list[str]:
         for thread in threads:
             thread.join()
     return failures
-
-
-@dataclass(frozen=True)
-class Usage:
-    """What a process and those below it hold."""
-
-    descriptors: int
-    threads: int
-    memory: int
-    """Resident bytes, what is shared divided among those who share it."""
-
-
-def usage(pid: int) -> Usage:
-    """Of the process and all below it."""
-    pids = _below(pid)
-    return Usage(
-        sum(len(list(Path(f"/proc/{each}/fd").iterdir())) for each in pids),
-        sum(len(list(Path(f"/proc/{each}/task").iterdir())) for each in pids),
-        sum(_proportional_bytes(each) for each in pids),
-    )
-
-
-def _below(pid: int) -> list[int]:
-    found = subprocess.run(["ps", "-e", "-o", "pid=,ppid="], capture_output=True, text=True, check=True).stdout
-    parents = {int(child): int(parent) for child, parent in (line.split() for line in found.splitlines())}
-    pids = [pid]
-    for each in pids:  # grows while it is read
-        pids += [child for child, parent in parents.items() if parent == each]
-    return pids
-
-
-def _proportional_bytes(pid: int) -> int:
-    lines = Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="ascii").splitlines()
-    return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:"))
 
 
 @dataclass(frozen=True)

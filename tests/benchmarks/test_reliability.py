@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.reliability import Soak, Usage, soak, survive, write_at_once
+from benchmarks.processes import Usage
+from benchmarks.reliability import Soak, soak, survive, write_at_once
 
 pytestmark = pytest.mark.long
 

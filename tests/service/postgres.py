@@ -16,7 +16,7 @@ from pathlib import Path
 import psycopg
 import pytest
 
-from tests.service.processes import children, gone_within
+from benchmarks.processes import children, gone_within
 
 MISSING = (
     "these tests start a PostgreSQL server of their own and found no initdb: install PostgreSQL 13 or newer "

@@ -14,9 +14,9 @@ from typing import Any
 
 import httpx
 
+from benchmarks.processes import busiest, grandchildren
 from benchmarks.server import address, started
 from models.world import toys_spec
-from tests.service.processes import busiest, grandchildren
 
 LEASE_S = 2.0
 FORMULA = "G F holding(sphere) & G F holding(cube)"

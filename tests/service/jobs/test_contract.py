@@ -11,9 +11,9 @@ from typing import Any
 import httpx
 import pytest
 
+from benchmarks.processes import gone_within
 from tests.service.conftest import check_problem
 from tests.service.jobs.deployments import ENDLESS, QUICK, SLOW, Deployment, order, task, wait_for
-from tests.service.processes import gone_within
 
 ENDS = ("succeeded", "failed", "cancelled")
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.processes import children, computing, gone_within
 from tests.service.conftest import check_problem, learn
 from tests.service.jobs.conftest import Deploy
 from tests.service.jobs.deployments import ENDLESS, LEASE_S, SLOW, Embedded, Queued, kill, order, task, wait_for
 from tests.service.postgres import Postgres
-from tests.service.processes import children, computing, gone_within
 
 ENDS = ("succeeded", "failed", "cancelled")
 

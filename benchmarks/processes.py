@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 
@@ -58,6 +59,38 @@ def gone_within(pid: int, seconds: float) -> bool:
 def memory(pid: int) -> int:
     """Resident bytes."""
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+@dataclass(frozen=True)
+class Usage:
+    """What a process and those below it hold."""
+
+    descriptors: int
+    threads: int
+    memory: int
+    """Resident bytes, what is shared divided among those who share it."""
+
+
+def usage(pid: int) -> Usage:
+    """Of the process and all below it."""
+    pids = _below(pid)
+    return Usage(
+        sum(len(list(Path(f"/proc/{each}/fd").iterdir())) for each in pids),
+        sum(len(list(Path(f"/proc/{each}/task").iterdir())) for each in pids),
+        sum(_proportional_bytes(each) for each in pids),
+    )
+
+
+def _below(pid: int) -> list[int]:
+    pids = [pid]
+    for each in pids:  # grows while it is read
+        pids += children(each)
+    return pids
+
+
+def _proportional_bytes(pid: int) -> int:
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="ascii").splitlines()
+    return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:"))
 
 
 def _parent(pid: int) -> int | None:
