@@ -3,11 +3,12 @@
     python -m benchmarks.language [--part development|held-out|both] [--failures]
 
 The sets are in `models/language/dataset/composed`, written apart from the training data; those who work on the
-translator read the development half only. Commands are grounded in the built-in environments `toys` and `navigation`,
-with the templates that a new service has, and one more task that is taught with a few wordings (`put_in`). A formula is
-right when Spot says that it is equivalent to the expected one, with atoms that hold in the same states of the
-environment taken for the same (`at(robot, kitchen)` and `near(robot, kitchen)`). Times are those of translating and
-grounding, on one thread.
+translator read the development half only. The varied ones were written later, as many different people talk: with
+reasons, asides, typing mistakes, numbered steps, in the passive. Commands are grounded in the built-in environments
+`toys` and `navigation`, with the templates that a new service has, and one more task that is taught with a few wordings
+(`put_in`). A formula is right when Spot says that it is equivalent to the expected one, with atoms that hold in equal
+states of the environment taken for one (`at(robot, kitchen)` and `near(robot, kitchen)`). Times are those of
+translating and grounding, on one thread.
 """
 
 from __future__ import annotations
@@ -148,8 +149,17 @@ def report(bench: Bench, part: Part, *, failures: bool) -> None:
     composed = bench.commands(read("compositions", part), seconds)
     plain = bench.commands(read("valid", part), seconds)
     refused = bench.refusals(read("refusals", part))
+    varied = bench.commands(read("varied", part), seconds)
+    unasked = bench.refusals(read("varied-refusals", part))
     print(f"\n{part}\n\n| commands | number | right | not understood | wrong |\n|---|---|---|---|---|")
-    rows = {**composed, "all composed": total(composed.values()), **plain, "nothing asked for": refused}
+    rows = {
+        **composed,
+        "all composed": total(composed.values()),
+        **plain,
+        "nothing asked for": refused,
+        "composed, varied speakers": total(varied.values()),
+        "nothing asked for, varied speakers": unasked,
+    }
     for kind, count in rows.items():
         share = count.right / count.total
         print(f"| {kind} | {count.total} | {count.right} ({share:.1%}) | {count.unknown} | {count.wrong} |")
@@ -157,7 +167,8 @@ def report(bench: Bench, part: Part, *, failures: bool) -> None:
     high = ordered[int(0.95 * len(ordered))]
     print(f"\nmedian {statistics.median(seconds) * 1e3:.1f} ms, 95th percentile {high * 1e3:.1f} ms")
     if failures:
-        print(*(text for count in (*composed.values(), *plain.values(), refused) for text in count.failures), sep="\n")
+        counts = (*composed.values(), *plain.values(), refused, *varied.values(), unasked)
+        print(*(text for count in counts for text in count.failures), sep="\n")
 
 
 def total(counts: Any) -> Count:

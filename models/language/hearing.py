@@ -16,9 +16,9 @@ from models.language.matching import Matcher, Shelf
 from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
 from models.language.teaching import TaughtTranslator
 from models.language.tokens import words
-from models.language.translation import BEAM_WIDTH, Translation, Translator, weighed
+from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
 from models.language.trimming import trimmed
-from models.queries import ContextualQuery, Template
+from models.queries import Composition, ContextualQuery, Template
 from models.world import Environment, mentions
 
 MATCHED = 12
@@ -27,6 +27,10 @@ HEARD = 0.5
 """Probability of any taught task from which one is heard."""
 HEARD_OF_THINGS = 0.03
 """The same for a text that names things of the environment: that is hardly said to a robot there for nothing."""
+NEGATED = NEGATIONS | {"no"}
+"""Words with which a text may forbid the task that it is near to."""
+COMPOSED = 0.4
+"""Confidence from which a text that means nothing as one task is taken for several."""
 DOUBTED = 0.3
 """What is left of the probability of a composition around one taught task."""
 
@@ -45,29 +49,23 @@ class Lessons:
     functions: Mapping[str, frozenset[str]]
     own: frozenset[str] = frozenset()
 
-    def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
-        """See `Translator`: as it was taught, or else what means the same."""
-        return self.translate_all([text], candidates=candidates)[0]
-
-    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
-        """As `translate`, for several texts at once."""
-        exact = {text: self.wordings.translate(text, candidates=candidates) for text in texts}
-        rest = [text for text, found in exact.items() if not found]
-        if self.nothing_new:
-            return [exact[text] for text in texts]
-        near = self.matcher.match_all(rest, self.shelf, candidates=candidates)
-        found = exact | {text: self._taught(said) for text, said in zip(rest, near, strict=True)}
-        return [found[text] for text in texts]
+    def within(self, environment: Environment | None) -> Situated:
+        """What understands clauses said in the environment."""
+        return Situated(self, environment)
 
     @property
     def nothing_new(self) -> bool:
         """Whether the networks know all tasks, so that there is nothing to compare with."""
         return all(task.task in self.own for task in self.shelf.tasks)
 
-    def doubted(self, heard: Translation) -> Translation:
-        """A composition around one taught task is rather that task in other words: "no lamp should be left on"."""
+    def doubted(self, heard: Translation, near: Sequence[Translation]) -> Translation:
+        """A composition around one taught task is rather a task in other words: "no lamp should be left on". Not if the
+        whole text is nearest to that one: then it says something of it, "don't put it in the box".
+        """
         tasks = [task.task for _, task in heard.query.tasks]
         if isinstance(heard.query, ContextualQuery) or len(tasks) > 1 or tasks[0] in self.own:
+            return heard
+        if near and tasks == [task.task for _, task in near[0].query.tasks]:
             return heard
         return replace(heard, confidence=DOUBTED * heard.confidence)
 
@@ -79,8 +77,14 @@ class Lessons:
 
     def near(self, text: str, *, candidates: int, environment: Environment | None = None) -> tuple[Translation, ...]:
         """What means the same as a task that was taught and that makes sense in the environment."""
+        return self.near_all([text], candidates=candidates, environment=environment)[0]
+
+    def near_all(
+        self, texts: Sequence[str], *, candidates: int, environment: Environment | None = None
+    ) -> list[tuple[Translation, ...]]:
+        """As `near`, for several texts at once, which is faster than one after the other."""
         if self.nothing_new:
-            return ()
+            return [()] * len(texts)
         there = None if environment is None else frozenset(environment.functions)
 
         def fits(task: str) -> bool:
@@ -89,9 +93,11 @@ class Lessons:
         def named(said: tuple[str, ...]) -> Sequence[tuple[int, int]]:
             return () if environment is None else mentions(said, environment)
 
-        found = self.matcher.match(text, self.shelf, candidates=candidates, fits=fits, named=named)
-        about = environment is not None and any(named(words(text)))
-        return self._taught(found, least=HEARD_OF_THINGS if about else HEARD)
+        found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named)
+        return [
+            self._taught(near, least=HEARD_OF_THINGS if any(named(words(text))) else HEARD)
+            for text, near in zip(texts, found, strict=True)
+        ]
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""
@@ -99,6 +105,22 @@ class Lessons:
         there = None if environment is None else frozenset(environment.functions)
         fitting = [task for task, _ in found if there is None or self.functions[task] <= there]
         return tuple(fitting[:count])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Situated:
+    """Lessons that are heard in an environment."""
+
+    lessons: Lessons
+    environment: Environment | None
+
+    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
+        """The readings of each text as it was taught, or else of what means the same; see `Translator`."""
+        found = {text: self.lessons.wordings.translate(text, candidates=candidates) for text in texts}
+        rest = [text for text, exact in found.items() if not exact]
+        near = self.lessons.near_all(rest, candidates=candidates, environment=self.environment)
+        found.update(zip(rest, near, strict=True))
+        return [found[text] for text in texts]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,23 +147,46 @@ class Hearing:
         if lessons is None:
             return self._ranked(text, translator.translate(text, candidates=wanted), environment)[:candidates]
         if isinstance(translator, ComposedTranslator):
-            translator = translator.knowing(lessons)
+            translator = translator.knowing(lessons.within(environment))
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted)
         if not exact:
-            heard = tuple(lessons.doubted(translation) for translation in heard)
             near = lessons.near(text, candidates=MATCHED, environment=environment)
-            heard = weighed([parted(translation, heard) for translation in near], heard)
+            if (
+                near
+                and not heard
+                and isinstance(translator, ComposedTranslator)
+                and not NEGATED.isdisjoint(words(text))
+            ):
+                heard = translator.several(text, candidates=wanted, asked=True)
+            near, heard = (
+                tuple(parted(translation, heard) for translation in near),
+                tuple(lessons.doubted(translation, near) for translation in heard),
+            )
+            heard = weighed(near, heard)
         ranked = self._ranked(text, heard, environment)
         if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
-            other_ways: list[Callable[[], Sequence[Translation]]] = [
-                lambda: trimmed(heard, environment, translator.saying),
-                lambda: translator.several(text, candidates=wanted),
-            ]
-            others = (self._ranked(text, way(), environment) for way in other_ways)
-            ranked = next((found for found in others if not _senseless(found)), ranked)
+            ranked = self._otherwise(text, heard, environment, translator, wanted) or ranked
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         return merged(taught, ranked)[:candidates]
+
+    def _otherwise(
+        self,
+        text: str,
+        heard: Sequence[Translation],
+        environment: Environment,
+        translator: ComposedTranslator,
+        candidates: int,
+    ) -> tuple[Reading, ...]:
+        """What a text that means nothing there may say: several commands, if likely, else what was heard without words
+        around the names, else several commands all the same; none where that means nothing either.
+        """
+        composed = self._ranked(text, translator.several(text, candidates=candidates), environment)
+        sensible = not _senseless(composed)
+        if sensible and composed[0].confidence >= COMPOSED:
+            return composed
+        shorter = self._ranked(text, trimmed(heard, environment, translator.saying), environment)
+        return shorter if not _senseless(shorter) else composed if sensible else ()
 
     def _ranked(
         self, text: str, translations: Sequence[Translation], environment: Environment | None
@@ -155,11 +200,11 @@ def _senseless(readings: Sequence[Reading]) -> bool:
 
 
 def parted(near: Translation, heard: Sequence[Translation]) -> Translation:
-    """A task that is a clause of what was heard is hardly all that the text says."""
+    """A task that is a clause of what was heard is hardly all that the text says, the less where it is forbidden."""
     said = {task.task for _, task in near.query.tasks}
     for translation in heard:
         tasks = [task.task for _, task in translation.query.tasks]
-        if len(tasks) > 1 and said.intersection(tasks):
+        if isinstance(translation.query, Composition) and said.intersection(tasks):
             return replace(near, confidence=DOUBTED * near.confidence)
     return near
 

@@ -69,7 +69,7 @@ def train_default(settings: spans.Settings, *, seed: int, folder: Path) -> None:
 def train_composition(settings: spans.Settings, *, seed: int, folder: Path) -> None:
     """Train the network that finds the clauses of a command, and write it with its curve."""
     lessons = CompositionLessons.load(seed=seed)
-    _train(lessons, settings, seed=seed, folder=folder, name=NAME, words=MarkedReader(encoder()))
+    _train(lessons, settings, seed=seed, folder=folder, name=NAME, words=MarkedReader.load())
 
 
 def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:

@@ -15,7 +15,8 @@ from models.world.spelling import Spelling
 if TYPE_CHECKING:
     from models.world.vocabulary import Symbol, Vocabulary
 
-DETERMINERS = frozenset(words("the a an this that these those my your his her its our their some"))
+DETERMINERS = frozenset(words("the teh a an this that these those my your his her its our their some"))
+""" "teh" is how "the" comes out in haste."""
 WHATEVER = "*"
 """Stands for "thing" in "anything": a word that nobody can say, so that no name is taken for it."""
 MAX_CORRECTED = 8

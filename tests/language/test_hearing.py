@@ -6,9 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language import Translation
+from models.language import TaughtTranslator, Translation
+from models.language.hearing import DOUBTED, Lessons, parted
+from models.language.matching import Matcher, Shelf
 from models.language.translation import weighed
-from models.queries import ContextualQuery
+from models.queries import Composition, ContextualQuery, Operator, Query
 
 A, B, C = (ContextualQuery(name, ("x",)) for name in "abc")
 
@@ -47,3 +49,33 @@ def test_the_probabilities_are_probabilities(one: list[float], other: list[float
     found = weighed(*sources)
     assert sum(translation.confidence for translation in found) <= 1 + 1e-9
     assert {t.query for t in found} == {t.query for source in sources for t in source}
+
+
+def avoid(*queries: Query) -> Query:
+    return Composition(Operator.AVOID, queries)
+
+
+@pytest.fixture(scope="module")
+def lessons() -> Lessons:
+    return Lessons(TaughtTranslator.of([]), Shelf.of([]), Matcher.load(), {}, frozenset({"own"}))
+
+
+def test_a_task_that_is_forbidden_is_not_all_that_is_said(lessons: Lessons) -> None:
+    """ "Don't put the ball in the box" is near to "put the ball in the box"; what it says is the opposite."""
+    near, heard = (Translation(A, 0.8),), (Translation(avoid(A), 0.6),)
+    assert parted(near[0], heard) == Translation(A, DOUBTED * 0.8)
+    assert lessons.doubted(heard[0], near) == heard[0]
+
+
+def test_a_composition_around_one_taught_task_may_be_another_task_in_other_words(lessons: Lessons) -> None:
+    """ "No lamp should be left on" is near to turning it off, not to leaving it on."""
+    heard = Translation(avoid(A), 0.6)
+    assert lessons.doubted(heard, (Translation(B, 0.8),)) == Translation(avoid(A), DOUBTED * 0.6)
+    assert parted(Translation(B, 0.8), (heard,)) == Translation(B, 0.8)
+
+
+def test_what_the_networks_know_is_not_doubted(lessons: Lessons) -> None:
+    own = ContextualQuery("own", ("x",))
+    two = Composition(Operator.AND, (A, avoid(B)))
+    for heard in (Translation(A, 0.6), Translation(avoid(own), 0.6), Translation(two, 0.6)):
+        assert lessons.doubted(heard, ()) == heard

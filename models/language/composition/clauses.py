@@ -32,6 +32,8 @@ JOINING = frozenset({"either", "both", "and", "or", "then", "first", "but"})
 """Words in front of all clauses that are no part of their verb."""
 LIKELIER = 0.75
 """Share of the first of two ways to complete a clause, or to read a pronoun; the environment may turn it round."""
+SHARES: Mapping[int, Sequence[float]] = {0: (), 1: (1.0,), 2: (LIKELIER, 1 - LIKELIER), 3: (0.5, 0.25, 0.25)}
+"""The same where there are so many ways."""
 LED = 0.8
 """Probability that a bare clause and the words before it are one task, from which it is read so."""
 ALTERNATIVES = 4
@@ -69,12 +71,13 @@ def readings(
     }
     whole.update(led)
     spoken.update(led)
+    clauses = [replace(each, words=_leading(each)) if each.number in led else each for each in clauses]
     texts = {
         clause.number: _completions(clause, _donor(clauses, place, whole), spoken, before)
         for place, clause in enumerate(clauses)
         if clause.number not in whole
     }
-    understand.prepare(text for pair in texts.values() for text in pair if text)
+    understand.prepare(text for carried, going in texts.values() for text in (*carried, going))
     options = [
         list(spoken[clause.number][:ALTERNATIVES])
         if clause.number in whole
@@ -108,14 +111,18 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
 
 def _led(clause: Clause, understand: Understand) -> Sequence[Translation]:
     """What a bare clause says with the words before it, if they are its verb: "then go to", "the attic"."""
-    lead = [word for word in clause.lead if word not in JOINING]
-    if not lead or clause.forbidden:
+    if clause.forbidden or len(_leading(clause)) == len(clause.words):
         return ()
-    text = " ".join((*lead, *clause.words))
+    text = " ".join(_leading(clause))
     understand.prepare([text])
     said = understand(text)
     likely = sum(translation.confidence for translation in said)
     return said if likely >= LED and not is_bare(text.split(), said) else ()
+
+
+def _leading(clause: Clause) -> tuple[str, ...]:
+    """A clause with the words before it that may be its verb."""
+    return (*(word for word in clause.lead if word not in JOINING), *clause.words)
 
 
 def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | None:
@@ -127,47 +134,54 @@ def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | N
 
 def _completions(
     clause: Clause, donor: Clause | None, spoken: Mapping[int, Sequence[Translation]], before: Sequence[str]
-) -> tuple[str | None, str]:
-    """The text of a bare clause with the verb of another, or that in front of all; and as a place to go to."""
+) -> tuple[tuple[str, ...], str]:
+    """The texts of a bare clause with what another says of its names, or with the verb in front of all; and the clause
+    as a place to go to.
+    """
     words = clause.words[1:] if clause.words[0] in DETERMINERS else clause.words
     going = " ".join((*GOING, *words))
-    if donor is not None:
-        return _carried(donor.words, spoken[donor.number][0], words), going
     verb = [word for word in before if word not in JOINING]
-    return (None if clause.forbidden or not verb else " ".join((*verb, "the", *words))), going
+    if donor is not None:
+        carried = _carried(donor, spoken[donor.number][0], words)
+        if verb and len(carried) > 1:  # "put the orange or the ball in the box": the donor has no verb either
+            carried = (*(" ".join((*verb, text)) for text in carried), *carried)
+        return carried, going
+    return () if clause.forbidden or not verb else (" ".join((*verb, "the", *words)),), going
 
 
-def _completed(clause: Clause, texts: tuple[str | None, str], understand: Understand) -> list[Translation]:
-    """What a bare clause says, completed in either way."""
-    carried = list(understand(texts[0]))[:ALTERNATIVES] if texts[0] else []
+def _completed(clause: Clause, texts: tuple[tuple[str, ...], str], understand: Understand) -> list[Translation]:
+    """What a bare clause says, completed in one way or another."""
+    carried = [list(said)[:ALTERNATIVES] for text in texts[0] if (said := understand(text))][:2]
     going = list(understand(texts[1]))[:ALTERNATIVES]
-    first, second = (going, carried) if clause.forbidden else (carried, going)
-    if not first or not second:
-        return first or second
-    weighed = [replace(t, confidence=t.confidence * LIKELIER) for t in first]
-    weighed += [replace(t, confidence=t.confidence * (1 - LIKELIER)) for t in second]
+    ways = [way for way in ([going, *carried] if clause.forbidden else [*carried, going]) if way]
     found: dict[ContextualQuery, float] = {}
-    for translation in weighed:
-        assert isinstance(translation.query, ContextualQuery)
-        found[translation.query] = found.get(translation.query, 0.0) + translation.confidence
+    for way, share in zip(ways, SHARES[len(ways)], strict=True):
+        for translation in way:
+            assert isinstance(translation.query, ContextualQuery)
+            found[translation.query] = found.get(translation.query, 0.0) + share * translation.confidence
     return [Translation(query, min(1.0, share)) for query, share in found.items()]
 
 
-def _carried(donor: Sequence[str], said: Translation, words: Sequence[str]) -> str | None:
-    """The donor's text with other words for its arguments, where these stand together."""
+def _carried(donor: Clause, said: Translation, words: Sequence[str]) -> tuple[str, ...]:
+    """The donor's text with other words for its arguments where these stand together; else, where it is one clause, for
+    the first, and for the last: "put the ball in the box", "the cup" or "the bag".
+    """
     assert isinstance(said.query, ContextualQuery)
-    spans = [
+    text = donor.words
+    spans = sorted(
         (at, at + len(phrase.split()))
         for phrase in said.query.arguments
-        if (at := find(phrase.split(), donor)) is not None
-    ]
+        if (at := find(phrase.split(), text)) is not None
+    )
     if not spans or len(spans) != len(said.query.arguments):
-        return None
-    begin, end = min(spans)[0], max(end for _, end in spans)
+        return ()
+    begin, end = spans[0][0], max(end for _, end in spans)
     covered = {place for start, stop in spans for place in range(start, stop)}
-    if any(place not in covered and donor[place] not in DETERMINERS for place in range(begin, end)):
-        return None
-    return " ".join((*donor[:begin], *words, *donor[end:]))
+    apart = any(place not in covered and text[place] not in DETERMINERS for place in range(begin, end))
+    if apart and donor.several:
+        return ()
+    replaced = [spans[0], spans[-1]] if apart else [(begin, end)]
+    return tuple(" ".join((*text[:start], *words, *text[stop:])) for start, stop in replaced)
 
 
 def _resolved(chosen: Sequence[tuple[Clause, Translation]]) -> Iterator[tuple[dict[int, ContextualQuery], float]]:

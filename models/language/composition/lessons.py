@@ -16,6 +16,7 @@ from typing import Literal, Self
 
 from models.language.composition.shapes import ONE_CLAUSE, SINGLE, read_shape
 from models.language.dataset import frames, no_task
+from models.language.dataset.asides import asides, drawn, remark
 from models.language.dataset.composition import Form, Hole, Leaf, Pattern, leaves, patterns, slot_elements
 from models.language.dataset.nesting import nested, nestings
 from models.language.spans.items import Item
@@ -25,9 +26,9 @@ from models.language.spans.tags import Span
 from models.language.spans.training import Settings
 from models.language.tokens import marked_words
 
-SETTINGS = Settings(epochs=14, batch=40, embedding=32, encoder=128, dropout=0.2)
+SETTINGS = Settings(epochs=26, batch=40, embedding=32, encoder=192, dropout=0.2)
 """How the network is fitted."""
-EACH, ALONE, NONE = 100, 1700, 700
+EACH, ALONE, NONE = 100, 1700, 1000
 """Texts of a composition on average, of one command alone, and of no command, in an epoch."""
 FOLLOWING = 16
 """Texts of a composition that has no patterns of its own."""
@@ -39,9 +40,19 @@ UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
 """Marks that are left out of the other texts."""
+_REPEATED = ("object", "place", "container")
 PLACE_KINDS = ("location", "first")
 """Rooms, and landmarks of a city."""
-FRAMED, MISSPELLED, PRONOUN = 0.25, 0.12, 0.35
+FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.15, 0.04, 0.35
+"""Parts of the texts with something polite around them, with typing mistakes, with several, and pronouns for what was
+named before.
+"""
+REASON, ASIDE, PURPOSE = 0.07, 0.08, 0.06
+"""Parts of the texts with a reason in front, and behind; of the clauses with something said beside them; and of the
+places that are visited for something.
+"""
+REMARKS = 150
+"""Reasons without a command in an epoch."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,14 +84,16 @@ class CompositionLessons:
         joining = (element for group in patterns().values() for pattern in group for element in pattern.elements)
         clauses = (element for leaf in leaves() for text in leaf.forms.values() for element in slot_elements(text))
         framing = (word for kind in _framing() for frame in kind for word in marked_words(frame))
-        return tuple(sorted({word for word in chain(joining, clauses, framing) if isinstance(word, str)}))
+        beside = (word for aside in asides("training").asides for word in marked_words(aside))
+        return tuple(sorted({word for word in chain(joining, clauses, framing, beside) if isinstance(word, str)}))
 
     def epoch(self, generator: random.Random) -> list[Item]:
         """Texts for one pass."""
         items = [self.composed(shape, generator) for shape, count in _times().items() for _ in range(count)]
         items += [self.alone(generator) for _ in range(ALONE)]
         items += [self._renamed(item, generator) for item in generator.choices(self.refused, k=NONE)]
-        return [misspelled(item, generator) if generator.random() < MISSPELLED else item for item in items]
+        items += [Item(tuple(remark(lambda slot: self._phrase(slot, generator), generator))) for _ in range(REMARKS)]
+        return [self._mistyped(item, generator) for item in items]
 
     def checks(self, generator: random.Random) -> list[Item]:
         """What the network is judged by: further texts of the same kind, and texts without a command."""
@@ -92,10 +105,12 @@ class CompositionLessons:
         if generator.random() < 0.5:
             item = self.single.command(generator.choice(ONE_CLAUSE), generator)
             before, after = item.frame
-            return Item(item.text, SINGLE, (((before, len(item.text) - after),),), item.frame)
+            alone = Item(item.text, SINGLE, (((before, len(item.text) - after),),), item.frame)
+            return self._reasoned(alone, generator)
         leaf = generator.choice(leaves())
         text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, {})
-        return self._framed(Item(tuple(text), SINGLE, (((0, len(text)),),)), "do", generator)
+        item = Item(tuple(text), SINGLE, (((0, len(text)),),))
+        return self._reasoned(self._framed(item, "do", generator), generator)
 
     def composed(self, shape: str, generator: random.Random) -> Item:
         """A text of a shape."""
@@ -105,7 +120,7 @@ class CompositionLessons:
         chosen = _leaves(pattern, generator)
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
-        mentions: list[tuple[Span, ...]] = [()] * len(pattern.holes)
+        mentions: list[tuple[Span, ...]] = [()] * len({hole.leaf for hole in pattern.holes})
         earlier: dict[str, bool] = {}
         for element in pattern.elements:
             if isinstance(element, str):
@@ -115,11 +130,13 @@ class CompositionLessons:
             said = self._said(chosen[element.leaf], element.form, generator, earlier)
             if text and text[-1] == "no" and said[0] in DETERMINERS:
                 said = said[1:]
-            mentions[element.leaf - 1] = ((len(text), len(text) + len(said)),)
+            mentions[element.leaf - 1] += ((len(text), len(text) + len(said)),)
             text += said
+            text += self._beside(element, chosen[element.leaf], keeps, generator)
         item = Item(tuple(text), shape, tuple(mentions))
         first = pattern.elements[0]
-        return self._framed(item, first.form if isinstance(first, Hole) else "it", generator)
+        framed = self._framed(item, first.form if isinstance(first, Hole) else "it", generator)
+        return self._reasoned(framed, generator)
 
     def _said(self, leaf: Leaf, form: Form, generator: random.Random, earlier: dict[str, bool]) -> list[str]:
         """The words of a clause; what was named before may be a pronoun."""
@@ -127,7 +144,7 @@ class CompositionLessons:
             slot = leaf.target or leaf.slots[-1]
             earlier[slot] = True
             return self._phrase(slot, generator)
-        text = leaf.forms.get(form) or leaf.do
+        text = leaf.forms.get(form) or leaf.pieces.get(form) or leaf.do
         said: list[str] = []
         previous = ""
         for element in slot_elements(text):
@@ -135,7 +152,8 @@ class CompositionLessons:
                 said.append(element)
                 continue
             (slot,) = element
-            if earlier.get(slot) and generator.random() < PRONOUN and slot in ("object", "place", "container"):
+            may_be_pronoun = previous != "color" and (form, slot) != ("subject", "place")
+            if may_be_pronoun and earlier.get(slot) and slot in _REPEATED and generator.random() < PRONOUN:
                 there = slot == "place" and said and said[-1] in ("to", "at", "in")
                 if there:
                     said.pop()
@@ -145,6 +163,40 @@ class CompositionLessons:
             earlier[slot] = True
             previous = slot
         return said
+
+    def _mistyped(self, item: Item, generator: random.Random) -> Item:
+        """The same, some with a typing mistake, and few with several."""
+        chance = generator.random()
+        for _ in range(0 if chance > MISSPELLED else 3 if chance < HASTY else 1):
+            item = misspelled(item, generator)
+        return item
+
+    def _beside(self, hole: Hole, leaf: Leaf, keeps: float, generator: random.Random) -> list[str]:
+        """What may be said after a clause and is no part of it: what for, or something to be nice."""
+        said: list[str] = []
+        text = leaf.forms.get(hole.form, "")
+        at_a_place = text.endswith("{place}") or (hole.form == "it" and leaf.target == "place")
+        if at_a_place and leaf.task == "navigate_one" and generator.random() < PURPOSE:
+            said += self._drawn(asides("training").purposes, generator)
+        if generator.random() < ASIDE:
+            commas = [[","] if generator.random() < keeps else [] for _ in range(2)]
+            said += [*commas[0], *self._drawn(asides("training").asides, generator), *commas[1]]
+        return said
+
+    def _reasoned(self, item: Item, generator: random.Random) -> Item:
+        """The same with what leads to it in front, and with a reason or remark behind."""
+        found = asides("training")
+        before = self._drawn(found.reasons_before, generator) if generator.random() < REASON else []
+        after: list[str] = []
+        if generator.random() < REASON:
+            after = [
+                generator.choice([",", ".", "-", ""]),
+                *self._drawn(found.reasons_after, generator),
+            ]
+        return item.within(before, [word for word in after if word])
+
+    def _drawn(self, phrases: Sequence[str], generator: random.Random) -> list[str]:
+        return drawn(phrases, lambda slot: self._phrase(slot, generator), generator)
 
     def _renamed(self, item: Item, generator: random.Random) -> Item:
         """A text of no command, with other names for some of what it names."""
@@ -180,11 +232,17 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
     bare = any(hole.form == "it" for hole in pattern.holes)
     chosen: dict[int, Leaf] = {}
     for hole in pattern.holes:
-        fitting: Sequence[Leaf] = [leaf for leaf in leaves() if hole.form == "it" or hole.form in leaf.forms]
+        if hole.leaf in chosen:
+            continue  # its second piece
+        fitting: Sequence[Leaf] = [leaf for leaf in leaves() if _has(leaf, hole.form)]
         if bare or generator.random() < 0.5:
             fitting = [leaf for leaf in fitting if leaf.target == kind] or fitting
         chosen[hole.leaf] = generator.choice(fitting)
     return chosen
+
+
+def _has(leaf: Leaf, form: Form) -> bool:
+    return form == "it" or form in leaf.forms or form in leaf.pieces
 
 
 @cache

@@ -1,18 +1,19 @@
 """Words and marks of punctuation as vectors: a mark has none, so that a text is read alike with and without marks.
 
-The network of compositions tells marks by their embeddings. As a text's words have the same vectors for it as for the
-network of single tasks, MiniLM, which takes most of the time, reads the text once for both.
+The network of compositions tells marks by their embeddings. As a text's words are read without marks, as for the
+network of single tasks, MiniLM's lower layers read the text once for both.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import torch
 from torch import Tensor
 
-from models.language.encoder import WordReader
+from models.language.encoder import DeepReader, WordReader, encoder
 from models.language.tokens import is_mark
 
 
@@ -21,6 +22,11 @@ class MarkedReader:
     """As `reader`, for texts with marks."""
 
     reader: WordReader
+
+    @classmethod
+    def load(cls) -> Self:
+        """What the network of compositions reads with: all layers of the encoder that is installed."""
+        return cls(DeepReader(encoder()))
 
     @property
     def size(self) -> int:

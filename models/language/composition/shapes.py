@@ -10,6 +10,8 @@ from models.queries import Composition, ContextualQuery, Operator, Query, parse_
 
 ONE_CLAUSE = ("move_to", "pickup", "pickup_colored", "navigate_one")
 """Task classes that are said in one clause; others are said as sequences are, and preferred to them when understood."""
+SEQUENCES = ("navigate_two", "navigate_three")
+"""Task classes that say no more than their clauses one after the other: which of both is meant, the clauses tell."""
 SINGLE = "1"
 """The shape of one command alone."""
 

@@ -14,8 +14,7 @@ from models.language.composition.arrangement import Arrangement, unended, unmark
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Clause, Understand, readings
 from models.language.composition.marks import MarkedReader
-from models.language.composition.shapes import ONE_CLAUSE, SINGLE, filled, forbidden, read_shape
-from models.language.encoder import encoder
+from models.language.composition.shapes import ONE_CLAUSE, SEQUENCES, SINGLE, filled, forbidden, read_shape
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.tags import Span
@@ -33,6 +32,8 @@ SURE = 0.99
 """Probability of being one task from which the other network is not asked at all."""
 CERTAIN = 0.9
 """Probability of being one task from which a sequence is not looked at, nor any mark of punctuation."""
+ASKED = 0.6
+"""Probability that a clause which says nothing else is near to what was taught."""
 TAUGHT = 0.9
 """Most share of the taught readings of a clause; the environment may turn it round."""
 LEAST = 0.02
@@ -50,6 +51,7 @@ MOST = 4
 
 
 _PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
+_PLAIN_LIST = re.compile(r"and\([\d, ]+\)")
 
 
 class Taught(Protocol):
@@ -75,7 +77,7 @@ class ComposedTranslator:
     @classmethod
     def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
         """With the model of a folder, or the one that is shipped; raises WeightsError."""
-        return cls(SpanReader.of(load_model(folder, name=name), MarkedReader(encoder())), single)
+        return cls(SpanReader.of(load_model(folder, name=name), MarkedReader.load()), single)
 
     @property
     def tasks(self) -> frozenset[str]:
@@ -105,23 +107,28 @@ class ComposedTranslator:
         elif understood(whole) >= ALONE:
             spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
+        whole = _apart(whole, shapes, understand)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
             alone = not _outvoted(understood(whole), _part(shapes, _several))
-            if (_in_one_clause(whole[0].query) and alone) or _part(shapes, _plain) >= ALONE:
+            certain = understood(whole) >= CERTAIN and _of_several_clauses(whole[0].query)
+            listed = _listed if certain else _plain
+            if (_in_one_clause(whole[0].query) and alone) or _part(shapes, listed) >= ALONE:
                 return whole[:candidates]
         return _ranked(self._weighed(whole, shapes, spoken, understand), refusal, candidates)
 
-    def several(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
-        """The readings of a text as more than one command, whatever it says as one; as `translate`."""
+    def several(self, text: str, *, candidates: int = 1, asked: bool = False) -> tuple[Translation, ...]:
+        """The readings of a text as more than one command, whatever it says as one; as `translate`. It may ask for
+        nothing, unless it is known to be `asked`.
+        """
         spoken = marked_words(text)
         if not any(not is_mark(word) for word in spoken):
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if _several(shape.shape)]
         found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught))
-        return _ranked(found, refusal, candidates)
+        return _ranked(found, 0.0 if asked else refusal, candidates)
 
     def _weighed(
         self,
@@ -165,7 +172,9 @@ class ComposedTranslator:
         found: dict[Arrangement, float] = {}
         readings, refusal = self.reader.read(spoken)
         for reading in readings:
-            arranged = _arranged(reading.task, [spans[0] for spans in reading.mentions], spoken)
+            arranged = _arranged(reading.task, reading.mentions, spoken)
+            if arranged is not None and arranged.shape == SINGLE:  # wherever its command is said, likeliest first
+                arranged = next((known for known in found if known.shape == SINGLE), arranged)
             if arranged is not None:
                 found[arranged] = found.get(arranged, 0.0) + reading.probability
         ranked = sorted(found.items(), key=lambda item: -item[1])[:MOST]
@@ -175,22 +184,45 @@ class ComposedTranslator:
         return kept, REFUSED * refusal / every
 
 
-def _arranged(shape: str, spans: Sequence[Span], spoken: Sequence[str]) -> Arrangement | None:
+def _arranged(shape: str, mentions: Sequence[Sequence[Span]], spoken: Sequence[str]) -> Arrangement | None:
     """A shape with the clauses at these places, by number; None where one has no words."""
     clauses = [
-        (span, Clause(number, unmarked(spoken[slice(*span)]), number in forbidden(shape)))
-        for number, span in enumerate(spans, start=1)
+        ((spans[0][0], spans[-1][1]), Clause(number, _words(spans, spoken), number in forbidden(shape)))
+        for number, spans in enumerate(mentions, start=1)
     ]
     if not all(clause.words for _, clause in clauses):
         return None
     if shape == SINGLE:
-        return Arrangement(shape)
+        return Arrangement(shape, (clauses[0][1],))
     clauses.sort(key=lambda pair: pair[0][0])
     before = unmarked(spoken[: clauses[0][0][0]])
     ordered = tuple(span for span, _ in clauses)
     leads = [(), *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
     led = tuple(replace(clause, lead=lead) for (_, clause), lead in zip(clauses, leads, strict=True))
     return Arrangement(shape, led, ordered, before)
+
+
+def _apart(
+    whole: Sequence[Translation], shapes: Sequence[Arrangement], understand: _Clauses
+) -> tuple[Translation, ...]:
+    """What a text says as one task; where that is not understood, what the command in it says, without reasons and
+    remarks: "my knees hurt, so go to the bank for me".
+    """
+    single = next((arranged for arranged in shapes if arranged.shape == SINGLE), None)
+    if understood(whole) >= ALONE or single is None:
+        return tuple(whole)
+    alone = understand.alone(" ".join(single.clauses[0].words))
+    return alone if understood(alone) > understood(whole) else tuple(whole)
+
+
+def _words(spans: Sequence[Span], spoken: Sequence[str]) -> tuple[str, ...]:
+    """The words of a clause. What is said in two pieces, a subject and what is done to it, is put as if it were done:
+    "the ball" must be "put in the box" is "put the ball in the box".
+    """
+    if len(spans) != 2:
+        return unmarked(spoken[slice(*spans[0])])
+    subject, said = (unmarked(spoken[slice(*span)]) for span in spans)
+    return (*said[:1], *subject, *said[1:])
 
 
 def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, float]:
@@ -219,6 +251,8 @@ class _Clauses:
         taught = self._known.get(text, ())
         if not taught:
             return read
+        if not read:
+            return _asked(taught)
         if sum(translation.confidence for translation in taught) < CERTAIN:
             return weighed(taught, read)
         known = {translation.query for translation in taught}
@@ -244,6 +278,12 @@ class _Clauses:
             self._known.update(zip(unknown, self.taught.translate_all(unknown, candidates=BEAM_WIDTH), strict=True))
 
 
+def _asked(taught: Sequence[Translation]) -> Sequence[Translation]:
+    """What a clause may say that says nothing else: as it asks for something, that is likelier than by itself."""
+    total = sum(translation.confidence for translation in taught)
+    return [replace(t, confidence=t.confidence * ASKED / total) for t in taught] if total < ASKED else taught
+
+
 def _ranked(found: Mapping[Query, float], refusal: float, candidates: int) -> tuple[Translation, ...]:
     """The likeliest queries; none where it is likelier that the text asks for nothing."""
     if sum(found.values()) <= refusal:
@@ -264,6 +304,13 @@ def _in_one_clause(query: Query) -> bool:
     return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
 
 
+def _of_several_clauses(query: Query) -> bool:
+    """Whether it is of a task class that takes several clauses to say, and says more than each of them: to put a thing
+    in a box "and" carry that off.
+    """
+    return isinstance(query, ContextualQuery) and query.task not in (*ONE_CLAUSE, *SEQUENCES)
+
+
 def _several(shape: str) -> bool:
     """Whether a shape has more than one clause."""
     return shape != SINGLE
@@ -272,6 +319,11 @@ def _several(shape: str) -> bool:
 def _plain(shape: str) -> bool:
     """Whether a shape is one clause, or clauses one after the other and nothing else."""
     return not _several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None
+
+
+def _listed(shape: str) -> bool:
+    """As `_plain`, or clauses in any order."""
+    return _plain(shape) or _PLAIN_LIST.fullmatch(shape) is not None
 
 
 def _part(shapes: Sequence[Arrangement], fits: Callable[[str], bool]) -> float:

@@ -16,10 +16,20 @@ from models.language.dataset.corpus import load_yaml
 from models.language.errors import VocabularyError
 from models.language.tokens import marked_words
 
-Form = Literal["do", "doing", "done", "state", "it"]
-"""How a clause is said: "go to the zoo", "going to the zoo", "been to the zoo", "you are at the zoo", "the zoo"."""
+Form = Literal["do", "doing", "done", "state", "it", "subject", "passive", "gerund"]
+"""How a clause is said: "go to the zoo", "going to the zoo", "been to the zoo", "you are at the zoo", "the zoo"; or in
+two pieces, a subject and what is done to it: "the ball" (must be) "picked up", "the ball" (needs) "picking up".
+"""
+PIECES: tuple[Form, Form] = ("passive", "gerund")
+"""The forms of what is done to a subject, which stands before them."""
 T = TypeVar("T")
-_HOLE = re.compile(r"\{(\d):(do|doing|done|state|it)\}")
+_HOLE = re.compile(r"\{(\d):(do|doing|done|state|it|subject|passive|gerund)\}")
+_PASSIVE = re.compile(
+    r"(\w+(?: (?:up|out|off|away|down|over))?(?= (?:\{color\} )?\{object\})|\w+(?= \{place\}$))"  # "picked up"
+    r" ((?:\{color\} )?\{\w+\})(.*)"  # "the ball", and the rest
+)
+_ACTIVE = frozenset({"had", "got", "having", "getting", "been", "being"})
+"""Verbs of which nothing is said in the passive."""
 _SLOT = re.compile(r"\{(\w+)\}")
 
 
@@ -40,9 +50,17 @@ class Leaf(BaseModel):
 
     @property
     def forms(self) -> Mapping[Form, str]:
-        """Its text by form, without `it`."""
+        """Its text by form, of those that are one piece, without `it`."""
         said: dict[Form, str | None] = {"do": self.do, "doing": self.doing, "done": self.done, "state": self.state}
         return {form: text for form, text in said.items() if text is not None}
+
+    @property
+    def pieces(self) -> Mapping[Form, str]:
+        """What it is said in where its object is the subject: that, and what is done to it. Empty where nobody does."""
+        done, doing = _PASSIVE.fullmatch(self.done), _PASSIVE.fullmatch(self.doing)
+        if done is None or doing is None or done[1].split()[0] in _ACTIVE:
+            return {}
+        return {"subject": done[2], "passive": done[1] + done[3], "gerund": doing[1] + doing[3]}
 
     @property
     def slots(self) -> tuple[str, ...]:
@@ -103,11 +121,24 @@ def slot_elements(text: str) -> tuple[str | tuple[str], ...]:
 def _pattern(shape: str, text: str) -> Pattern:
     elements = tuple(_split(text, _HOLE, lambda found: Hole(int(found[1]), found[2])))  # type: ignore[arg-type]
     pattern = Pattern(shape, elements)
-    said = sorted(hole.leaf for hole in pattern.holes)
-    if said != sorted({int(number) for number in re.findall(r"\d", shape)}):
+    said = sorted(hole.leaf for hole in pattern.holes if hole.form not in PIECES)
+    if said != sorted({int(number) for number in re.findall(r"\d", shape)}) or not _whole(pattern):
         detail = f"the pattern {text!r} does not have every clause of {shape} once"
         raise VocabularyError(detail, places=[Place("/patterns", detail)])
     return pattern
+
+
+def _whole(pattern: Pattern) -> bool:
+    """Whether what is done to a subject stands behind each one and nowhere else."""
+    open_subjects: set[int] = set()
+    for hole in pattern.holes:
+        if hole.form == "subject":
+            open_subjects.add(hole.leaf)
+        elif hole.form in PIECES:
+            if hole.leaf not in open_subjects:
+                return False
+            open_subjects.remove(hole.leaf)
+    return not open_subjects
 
 
 def _split(text: str, hole: re.Pattern[str], made: Callable[[re.Match[str]], T]) -> Iterator[str | T]:

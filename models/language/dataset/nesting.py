@@ -106,10 +106,9 @@ def nestings() -> dict[str, Nesting]:
 def nested(shape: str, generator: random.Random) -> Pattern:
     """A pattern of a shape that is a nesting, drawn."""
     nesting = nestings()[shape]
-    outer = generator.choice(patterns()[nesting.outer])
-    (hole,) = (hole for hole in outer.holes if hole.leaf == nesting.clause)
+    outer, hole = generator.choice(_outer(nesting.outer, nesting.clause))
     inner = _inner(nesting.inner, hole, generator)
-    more = len([element for element in inner if isinstance(element, Hole)]) - 1
+    more = len({element.leaf for element in inner if isinstance(element, Hole)}) - 1
     elements: list[str | Hole] = []
     for element in outer.elements:
         if element == hole:
@@ -119,6 +118,13 @@ def nested(shape: str, generator: random.Random) -> Pattern:
         else:
             elements.append(element)
     return Pattern(shape, tuple(elements))
+
+
+@cache
+def _outer(shape: str, clause: int) -> tuple[tuple[Pattern, Hole], ...]:
+    """The patterns of a shape in which a clause is in one piece, and its hole."""
+    found = ((pattern, [hole for hole in pattern.holes if hole.leaf == clause]) for pattern in patterns()[shape])
+    return tuple((pattern, holes[0]) for pattern, holes in found if len(holes) == 1)
 
 
 def _moved(element: str | Hole, by: int) -> str | Hole:

