@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from models.language.composition.clauses import Clause
-from models.language.composition.shapes import read_shape
+from models.language.composition.shapes import SINGLE, forbidden, read_shape
 from models.language.spans.tags import Span
 from models.language.tokens import is_mark
 from models.queries import Composition, ContextualQuery, Operator, Query
@@ -54,6 +54,34 @@ class Arrangement:
         spans = (*self.spans[:place], span, *self.spans[place + 2 :])
         text = _CLAUSE.sub(lambda found: str(moved(int(found[1]))), str(shape))
         return replace(self, shape=text, clauses=tuple(clauses), spans=spans)
+
+
+def arranged_as(shape: str, mentions: Sequence[Sequence[Span]], spoken: Sequence[str]) -> Arrangement | None:
+    """A shape with the clauses at these places, by number; None where one has no words."""
+    clauses = [
+        ((spans[0][0], spans[-1][1]), Clause(number, words_of(spans, spoken), number in forbidden(shape)))
+        for number, spans in enumerate(mentions, start=1)
+    ]
+    if not all(clause.words for _, clause in clauses):
+        return None
+    if shape == SINGLE:
+        return Arrangement(shape, (clauses[0][1],))
+    clauses.sort(key=lambda pair: pair[0][0])
+    before = unmarked(spoken[: clauses[0][0][0]])
+    ordered = tuple(span for span, _ in clauses)
+    leads = [(), *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
+    led = tuple(replace(clause, lead=lead) for (_, clause), lead in zip(clauses, leads, strict=True))
+    return Arrangement(shape, led, ordered, before)
+
+
+def words_of(spans: Sequence[Span], spoken: Sequence[str]) -> tuple[str, ...]:
+    """The words of a clause. What is said in two pieces, a subject and what is done to it, is put as if it were done:
+    "the ball" must be "put in the box" is "put the ball in the box".
+    """
+    if len(spans) != 2:
+        return unmarked(spoken[slice(*spans[0])])
+    subject, said = (unmarked(spoken[slice(*span)]) for span in spans)
+    return (*said[:1], *subject, *said[1:])
 
 
 def unmarked(spoken: Sequence[str]) -> tuple[str, ...]:

@@ -6,18 +6,16 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from pathlib import Path
 from typing import Protocol, Self
 
-from models.language.composition.arrangement import Arrangement, unended, unmarked
+from models.language.composition.arrangement import Arrangement, arranged_as, unended, unmarked
 from models.language.composition.avoidance import meanings
-from models.language.composition.clauses import Clause, Understand, readings
+from models.language.composition.clauses import Understand, readings
 from models.language.composition.marks import MarkedReader
-from models.language.composition.shapes import ONE_CLAUSE, SEQUENCES, SINGLE, filled, forbidden, read_shape
+from models.language.composition.shapes import ONE_CLAUSE, SEQUENCES, SINGLE, filled, read_shape
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
-from models.language.spans.tags import Span
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
 from models.language.translation import BEAM_WIDTH, Translation, weighed
@@ -172,7 +170,7 @@ class ComposedTranslator:
         found: dict[Arrangement, float] = {}
         readings, refusal = self.reader.read(spoken)
         for reading in readings:
-            arranged = _arranged(reading.task, reading.mentions, spoken)
+            arranged = arranged_as(reading.task, reading.mentions, spoken)
             if arranged is not None and arranged.shape == SINGLE:  # wherever its command is said, likeliest first
                 arranged = next((known for known in found if known.shape == SINGLE), arranged)
             if arranged is not None:
@@ -182,24 +180,6 @@ class ComposedTranslator:
         every = 1.0 - (1.0 - REFUSED) * refusal
         kept = [replace(arranged, share=share / every) for arranged, share in ranked if share >= least]
         return kept, REFUSED * refusal / every
-
-
-def _arranged(shape: str, mentions: Sequence[Sequence[Span]], spoken: Sequence[str]) -> Arrangement | None:
-    """A shape with the clauses at these places, by number; None where one has no words."""
-    clauses = [
-        ((spans[0][0], spans[-1][1]), Clause(number, _words(spans, spoken), number in forbidden(shape)))
-        for number, spans in enumerate(mentions, start=1)
-    ]
-    if not all(clause.words for _, clause in clauses):
-        return None
-    if shape == SINGLE:
-        return Arrangement(shape, (clauses[0][1],))
-    clauses.sort(key=lambda pair: pair[0][0])
-    before = unmarked(spoken[: clauses[0][0][0]])
-    ordered = tuple(span for span, _ in clauses)
-    leads = [(), *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
-    led = tuple(replace(clause, lead=lead) for (_, clause), lead in zip(clauses, leads, strict=True))
-    return Arrangement(shape, led, ordered, before)
 
 
 def _apart(
@@ -213,16 +193,6 @@ def _apart(
         return tuple(whole)
     alone = understand.alone(" ".join(single.clauses[0].words))
     return alone if understood(alone) > understood(whole) else tuple(whole)
-
-
-def _words(spans: Sequence[Span], spoken: Sequence[str]) -> tuple[str, ...]:
-    """The words of a clause. What is said in two pieces, a subject and what is done to it, is put as if it were done:
-    "the ball" must be "put in the box" is "put the ball in the box".
-    """
-    if len(spans) != 2:
-        return unmarked(spoken[slice(*spans[0])])
-    subject, said = (unmarked(spoken[slice(*span)]) for span in spans)
-    return (*said[:1], *subject, *said[1:])
 
 
 def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, float]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from models.language.composition.arrangement import Arrangement, unended
+from models.language.composition.arrangement import Arrangement, unended, words_of
 from models.language.composition.clauses import Clause
+from models.language.spans.tags import Span
 
 TEXT = ["load", "it", ",", "carry", "it", ";", "then", "rest", ",", "no", "noise"]
 SPANS = {1: (0, 2), 2: (3, 5), 3: (7, 8), 4: (9, 11)}
@@ -72,3 +73,15 @@ def test_what_is_never_one_task(arrangement: Arrangement) -> None:
 )
 def test_the_end_of_a_text_is_left_out(spoken: tuple[str, ...], expected: tuple[str, ...]) -> None:
     assert unended(spoken) == expected
+
+
+@pytest.mark.parametrize(
+    ("spans", "said"),
+    [
+        (((1, 3), (6, 10)), "put the ball in the box"),
+        (((11, 13),), "the zoo"),
+    ],
+)
+def test_what_is_done_to_a_thing_is_put_as_if_it_were_done(spans: tuple[Span, ...], said: str) -> None:
+    spoken = ["once", "the", "ball", ",", "dear", ",", "put", "in", "the", "box", ";", "the", "zoo"]
+    assert " ".join(words_of(spans, spoken)) == said

@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 
 from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
-from models.language.composition.translator import _words
-from models.language.spans.tags import Span
 from models.queries import Composition, ContextualQuery, parse_task
 
 
@@ -67,15 +65,3 @@ def test_taught_clauses(translator: ComposedTranslator) -> None:
 def test_a_single_task_is_a_contextual_query_and_several_are_a_composition(translator: ComposedTranslator) -> None:
     assert isinstance(translator.translate("pick up the ball")[0].query, ContextualQuery)
     assert isinstance(translator.translate("never pick up the ball")[0].query, Composition)
-
-
-@pytest.mark.parametrize(
-    ("spans", "said"),
-    [
-        (((1, 3), (6, 10)), "put the ball in the box"),
-        (((11, 13),), "the zoo"),
-    ],
-)
-def test_what_is_done_to_a_thing_is_put_as_if_it_were_done(spans: tuple[Span, ...], said: str) -> None:
-    spoken = ["once", "the", "ball", ",", "dear", ",", "put", "in", "the", "box", ";", "the", "zoo"]
-    assert " ".join(_words(spans, spoken)) == said
