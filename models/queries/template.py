@@ -40,6 +40,7 @@ from models.world import (
     resolve,
     speaks_of_others,
     suggest,
+    with_article,
     with_values,
 )
 
@@ -121,7 +122,7 @@ def parameter_kinds(formula: Formula, environment: Environment, arity: int) -> t
         function = environment.functions.get(atom.function)
         if function is None or len(function.parameters) != len(atom.arguments):
             raise UnknownPropositionError(
-                f"the template needs {atom.function} with {len(atom.arguments)} arguments, "
+                f"the template needs {atom.function} with {_count(atom.arguments)}, "
                 f"which {environment.name} does not have"
             )
         for place, term in positions:
@@ -301,11 +302,16 @@ def _ground_argument(
         raise AmbiguousGroundingError(
             detail, position=index + 1, phrase=phrase, candidates=candidates, places=[Place(pointer, detail)]
         )
-    wanted = " or ".join(sorted(kinds))
+    wanted = with_article(" or ".join(sorted(kinds)))
     elsewhere = ground(phrase, environment).candidates
     if elsewhere and elsewhere[0].misspelt is None:
         other = elsewhere[0].symbol
-        detail = f'argument {index + 1} of {query.task} must be a {wanted}; "{phrase}" is {other.name}, a {other.kind}'
+        detail = f"argument {index + 1} of {query.task} must be {wanted}; "
+        detail += f'"{phrase}" is {other.name}, {with_article(other.kind)}'
         raise TypeMismatchError(detail, places=[Place(pointer, detail)])
-    detail = f"{nothing_called(phrase, environment, kinds)}; argument {index + 1} of {query.task} is a {wanted}"
+    detail = f"{nothing_called(phrase, environment, kinds)}; argument {index + 1} of {query.task} is {wanted}"
     raise UnknownObjectError(detail, places=[Place(pointer, detail)])
+
+
+def _count(arguments: Sequence[object]) -> str:
+    return "1 argument" if len(arguments) == 1 else f"{len(arguments)} arguments"

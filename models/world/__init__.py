@@ -1,7 +1,7 @@
 """Object-oriented worlds: the language, built-in domains, compiled dynamics, grounding of names and phrases."""
 
 from models.world.builders import navigation_spec, toys_spec
-from models.world.description import Candidate
+from models.world.description import Candidate, with_article
 from models.world.domain import Function, FunctionParameter
 from models.world.environment import Environment, compile_world
 from models.world.errors import (
@@ -84,5 +84,6 @@ __all__ = [
     "suggest",
     "toys_spec",
     "widened",
+    "with_article",
     "with_values",
 ]

@@ -50,7 +50,7 @@ def described(spoken: Words, environment: Environment, kinds: Kinds | None) -> l
 
 def anything(environment: Environment, kinds: Kinds | None) -> list[Candidate]:
     """Every object of the kinds."""
-    return [Candidate(symbol, _a(symbol.kind)) for symbol in of_kinds(environment.vocabulary.objects, kinds)]
+    return [Candidate(symbol, with_article(symbol.kind)) for symbol in of_kinds(environment.vocabulary.objects, kinds)]
 
 
 def of_kinds(symbols: Iterable[Symbol], kinds: Kinds | None) -> list[Symbol]:
@@ -62,7 +62,11 @@ def _name_reason(symbol: Symbol, called: str, vocabulary: Vocabulary) -> str:
     if called != symbol.name:
         return f"{called} is a synonym of {symbol.name}"
     kind = _spoken(symbol.kind)
-    return f"{_a(symbol.kind)} named {symbol.name}" if vocabulary.is_object(symbol) else f"the {kind} {symbol.name}"
+    return (
+        f"{with_article(symbol.kind)} named {symbol.name}"
+        if vocabulary.is_object(symbol)
+        else f"the {kind} {symbol.name}"
+    )
 
 
 def _describe(content: list[str], symbol: Symbol, traits: Traits) -> Candidate | None:
@@ -89,13 +93,13 @@ def _contains(content: list[str], stems: Words) -> bool:
 def _description(symbol: Symbol, values: list[tuple[str, str]], by_name: bool) -> str:
     called = f" named {symbol.name}" if by_name else ""
     if not values:
-        return f"{_a(symbol.kind)}{called}"
+        return f"{with_article(symbol.kind)}{called}"
     said = listing(dict.fromkeys(f"{_spoken(attribute)} is {value}" for attribute, value in values), "and")
-    return f"{_a(symbol.kind)}{called} whose {said}"
+    return f"{with_article(symbol.kind)}{called} whose {said}"
 
 
-def _a(kind: str) -> str:
-    """A kind with its article, by the letter that it begins with."""
+def with_article(kind: str) -> str:
+    """A kind with its article, by the letter that it begins with: "an appliance"."""
     spoken = _spoken(kind)
     return f"an {spoken}" if spoken[:1].lower() in "aeiou" else f"a {spoken}"
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from models.language.composition.clauses import Clause
-from models.language.composition.shapes import SINGLE, forbidden, read_shape
+from models.language.composition.shapes import forbidden, read_shape
 from models.language.spans.tags import Span
 from models.language.tokens import is_mark
 from models.queries import Composition, ContextualQuery, Operator, Query
@@ -16,6 +16,9 @@ from models.queries import Composition, ContextualQuery, Operator, Query
 JOINED_BY = (Operator.THEN, Operator.AND)
 """Operators of which two operands may be one task: "load the ball into the crate, carry it to the hall" ships it."""
 _CLAUSE = re.compile(r"clause\((\d+)\)")
+_LABEL = re.compile(r"[a-z]|\d{1,3}")
+_BEHIND = frozenset({"and", "or", "then", "but", "before", "after", "until", "first", "again", "in"})
+"""What may follow a name that ends with a letter or a number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,20 +61,29 @@ class Arrangement:
 
 def arranged_as(shape: str, mentions: Sequence[Sequence[Span]], spoken: Sequence[str]) -> Arrangement | None:
     """A shape with the clauses at these places, by number; None where one has no words."""
+    mentions = [_lengthened(spans, spoken) for spans in mentions]
     clauses = [
         ((spans[0][0], spans[-1][1]), Clause(number, words_of(spans, spoken), number in forbidden(shape)))
         for number, spans in enumerate(mentions, start=1)
     ]
     if not all(clause.words for _, clause in clauses):
         return None
-    if shape == SINGLE:
-        return Arrangement(shape, (clauses[0][1],))
     clauses.sort(key=lambda pair: pair[0][0])
-    before = unmarked(spoken[: clauses[0][0][0]])
     ordered = tuple(span for span, _ in clauses)
-    leads = [(), *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
+    before = unmarked(spoken[: ordered[0][0]])
+    leads = [before, *(unmarked(spoken[one[1] : other[0]]) for one, other in pairwise(ordered))]
     led = tuple(replace(clause, lead=lead) for (_, clause), lead in zip(clauses, leads, strict=True))
     return Arrangement(shape, led, ordered, before)
+
+
+def _lengthened(spans: Sequence[Span], spoken: Sequence[str]) -> Sequence[Span]:
+    """A clause with the letter or number behind it, which belongs to the name at its end: "go to shelf", "b"."""
+    end = spans[-1][1]
+    if end == len(spoken) or not _LABEL.fullmatch(spoken[end]):
+        return spans
+    if end + 1 < len(spoken) and spoken[end + 1] not in _BEHIND and not is_mark(spoken[end + 1]):
+        return spans  # "a ball", "i need"
+    return (*spans[:-1], (spans[-1][0], end + 1))
 
 
 def words_of(spans: Sequence[Span], spoken: Sequence[str]) -> tuple[str, ...]:

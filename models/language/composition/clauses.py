@@ -36,6 +36,8 @@ SHARES: Mapping[int, Sequence[float]] = {0: (), 1: (1.0,), 2: (LIKELIER, 1 - LIK
 """The same where there are so many ways."""
 LED = 0.8
 """Probability that a bare clause and the words before it are one task, from which it is read so."""
+VERBS = (3, 2)
+"""Words of a verb and what belongs to it, of more that stand before a clause: "before you", "go to"."""
 ALTERNATIVES = 4
 """Readings of one clause that are looked at."""
 MOST = 12
@@ -67,11 +69,13 @@ def readings(
         return  # what is no task in several clauses is no name either
     whole = {clause.number for clause in clauses if not is_bare(clause.words, spoken[clause.number])}
     led = {
-        clause.number: said for clause in clauses if clause.number not in whole and (said := _led(clause, understand))
+        clause.number: found
+        for clause in clauses
+        if clause.number not in whole and (found := _led(clause, understand)) is not None
     }
     whole.update(led)
-    spoken.update(led)
-    clauses = [replace(each, words=_leading(each)) if each.number in led else each for each in clauses]
+    spoken.update({number: said for number, (_, said) in led.items()})
+    clauses = [replace(each, words=led[each.number][0]) if each.number in led else each for each in clauses]
     texts = {
         clause.number: _completions(clause, _donor(clauses, place, whole), spoken, before)
         for place, clause in enumerate(clauses)
@@ -109,20 +113,18 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
     return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
 
 
-def _led(clause: Clause, understand: Understand) -> Sequence[Translation]:
-    """What a bare clause says with the words before it, if they are its verb: "then go to", "the attic"."""
-    if clause.forbidden or len(_leading(clause)) == len(clause.words):
-        return ()
-    text = " ".join(_leading(clause))
-    understand.prepare([text])
-    said = understand(text)
-    likely = sum(translation.confidence for translation in said)
-    return said if likely >= LED and not is_bare(text.split(), said) else ()
-
-
-def _leading(clause: Clause) -> tuple[str, ...]:
-    """A clause with the words before it that may be its verb."""
-    return (*(word for word in clause.lead if word not in JOINING), *clause.words)
+def _led(clause: Clause, understand: Understand) -> tuple[tuple[str, ...], Sequence[Translation]] | None:
+    """A bare clause with the words before it that are its verb, and what that says: "then go to", "the attic"."""
+    lead = tuple(word for word in clause.lead if word not in JOINING)
+    if clause.forbidden or not lead:
+        return None
+    texts = list(dict.fromkeys((*lead[-length:], *clause.words) for length in (len(lead), *VERBS)))
+    understand.prepare(" ".join(text) for text in texts)
+    for text in texts:
+        said = understand(" ".join(text))
+        if sum(translation.confidence for translation in said) >= LED and not is_bare(text, said):
+            return text, said
+    return None
 
 
 def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | None:

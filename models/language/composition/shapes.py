@@ -25,7 +25,8 @@ def read_shape(text: str) -> Query:
 
 
 def filled(shape: Query, clauses: Mapping[int, Query]) -> Query:
-    """The query of a shape with these clauses, by number; sequences and lists within their like become one.
+    """The query of a shape with these clauses, by number; sequences and lists within their like become one, and
+    what is listed twice is listed once.
 
     Raises QuerySyntaxError for a query beyond the limits.
     """
@@ -39,6 +40,10 @@ def filled(shape: Query, clauses: Mapping[int, Query]) -> Query:
             operands += made.operands
         else:
             operands.append(made)
+    if shape.operator in (Operator.AND, Operator.OR):
+        operands = list(dict.fromkeys(operands))  # "go to the kitchen and wait there"
+        if len(operands) == 1:
+            return operands[0]
     return Composition(shape.operator, tuple(operands))
 
 

@@ -44,6 +44,9 @@ REFUSED = 0.25
 """Odds of texts that ask for nothing, to those in training: the other network refuses most of them by itself."""
 APART = 0.7
 """Share of the readings of each clause by itself, where two of them may also be one task."""
+JOINING = frozenset({"and", "then", "but", "or"})
+"""Words that join a command to another."""
+WHILE = frozenset({"while", "whilst", "during"})
 MOST = 4
 """Ways to put clauses together that are looked at."""
 
@@ -105,7 +108,7 @@ class ComposedTranslator:
         elif understood(whole) >= ALONE:
             spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
-        whole = _apart(whole, shapes, understand)
+        whole = _apart(whole, shapes, spoken, understand)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
@@ -179,20 +182,34 @@ class ComposedTranslator:
         least = max(LEAST, ranked[0][1] * LEAST_SHARE) if ranked else 0.0
         every = 1.0 - (1.0 - REFUSED) * refusal
         kept = [replace(arranged, share=share / every) for arranged, share in ranked if share >= least]
+        if kept and _at_once(kept[0]):
+            return [], 1.0
         return kept, REFUSED * refusal / every
 
 
 def _apart(
-    whole: Sequence[Translation], shapes: Sequence[Arrangement], understand: _Clauses
+    whole: Sequence[Translation], shapes: Sequence[Arrangement], spoken: Sequence[str], understand: _Clauses
 ) -> tuple[Translation, ...]:
     """What a text says as one task; where that is not understood, what the command in it says, without reasons and
     remarks: "my knees hurt, so go to the bank for me".
     """
     single = next((arranged for arranged in shapes if arranged.shape == SINGLE), None)
-    if understood(whole) >= ALONE or single is None:
+    if understood(whole) >= ALONE or single is None or _joins(single, spoken):
         return tuple(whole)
     alone = understand.alone(" ".join(single.clauses[0].words))
     return alone if understood(alone) > understood(whole) else tuple(whole)
+
+
+def _joins(single: Arrangement, spoken: Sequence[str]) -> bool:
+    """Whether what is said beside a command is joined to it, and so asks for something too: "... and sing a song"."""
+    begin, end = single.spans[0]
+    before, after = unmarked(spoken[:begin])[-1:], unmarked(spoken[end:])[:1]
+    return not JOINING.isdisjoint((*before, *after))
+
+
+def _at_once(arranged: Arrangement) -> bool:
+    """Whether something is forbidden only while something else holds, which no shape says."""
+    return "until(" in arranged.shape and any(not WHILE.isdisjoint(clause.lead) for clause in arranged.clauses[1:])
 
 
 def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, float]:

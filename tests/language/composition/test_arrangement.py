@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from models.language.composition.arrangement import Arrangement, unended, words_of
+from models.language.composition.arrangement import Arrangement, arranged_as, unended, words_of
 from models.language.composition.clauses import Clause
 from models.language.spans.tags import Span
 
@@ -85,3 +85,19 @@ def test_the_end_of_a_text_is_left_out(spoken: tuple[str, ...], expected: tuple[
 def test_what_is_done_to_a_thing_is_put_as_if_it_were_done(spans: tuple[Span, ...], said: str) -> None:
     spoken = ["once", "the", "ball", ",", "dear", ",", "put", "in", "the", "box", ";", "the", "zoo"]
     assert " ".join(words_of(spans, spoken)) == said
+
+
+@pytest.mark.parametrize(
+    ("text", "clauses"),
+    [
+        ("go to shelf b and to shelf c", ["shelf b", "shelf c"]),
+        ("go to shelf 7 , and to shelf 12", ["shelf 7", "shelf 12"]),
+        ("go to shelf a ball and to shelf c", ["shelf", "shelf c"]),
+    ],
+)
+def test_a_letter_or_number_belongs_to_the_name_before_it(text: str, clauses: list[str]) -> None:
+    spoken = text.split()
+    places = [place for place, word in enumerate(spoken) if word == "shelf"]
+    found = arranged_as("and(1, 2)", [[(place, place + 1)] for place in places], spoken)
+    assert found is not None
+    assert [" ".join(clause.words) for clause in found.clauses] == clauses

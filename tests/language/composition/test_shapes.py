@@ -18,6 +18,8 @@ from models.queries import parse_query
         ("and(1, until(avoid(2), 1))", ["go(a)", "go(b)"], "and(go(a), until(avoid(go(b)), go(a)))"),
         ("then(1, 2)", ["then(go(a), go(b))", "go(c)"], "then(go(a), go(b), go(c))"),
         ("or(1, 2)", ["and(go(a), go(b))", "go(c)"], "or(and(go(a), go(b)), go(c))"),
+        ("and(1, 2)", ["go(a)", "go(a)"], "go(a)"),
+        ("then(1, 2)", ["go(a)", "go(a)"], "then(go(a), go(a))"),
     ],
 )
 def test_a_shape_is_filled(shape: str, clauses: list[str], query: str) -> None:

@@ -35,10 +35,22 @@ def best(translator: ComposedTranslator, text: str) -> str:
         ),
         ("go to the cafe again and again", "repeat(navigate_one(cafe))"),
         ("pick up the mug, then go to the attic", "then(pickup(mug), navigate_one(attic))"),
+        ("get the mug, then go to the attic", "then(pickup(mug), navigate_one(attic))"),
+        ("the mug must be picked up before you go to the attic", "then(pickup(mug), navigate_one(attic))"),
+        ("go to shelf b and never go to shelf a", "and(navigate_one(shelf b), avoid(navigate_one(shelf a)))"),
+        ("my bread is all gone, so go to the bakery", "navigate_one(bakery)"),
     ],
 )
 def test_compositions(translator: ComposedTranslator, text: str, query: str) -> None:
     assert best(translator, text) == query
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["pick up the ball and sing a song", "never go to the attic while you are holding the mug", "sing and dance"],
+)
+def test_what_is_understood_in_part_is_not_understood(translator: ComposedTranslator, text: str) -> None:
+    assert translator.translate(text) == ()
 
 
 @pytest.mark.parametrize("text", ["pick up the ball", "go to the zoo and then to the bank", "qwertz", "", " , ."])
