@@ -26,7 +26,7 @@ SEQUENCE = "then("
 """How the shapes of sequences begin."""
 ALONE = 0.5
 """Probability of being one task from which nothing else is looked for."""
-SURE = 0.99
+SURE = 0.986
 """Probability of being one task from which the other network is not asked at all."""
 CERTAIN = 0.9
 """Probability of being one task from which a sequence is not looked at, nor any mark of punctuation."""
