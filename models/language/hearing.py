@@ -147,7 +147,7 @@ class Hearing:
         if lessons is None:
             return self._ranked(text, translator.translate(text, candidates=wanted), environment)[:candidates]
         if isinstance(translator, ComposedTranslator):
-            translator = translator.knowing(lessons.within(environment))
+            translator = translator.knowing(lessons.within(None), nearby=lessons.within(environment))
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted)
         if not exact:

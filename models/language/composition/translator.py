@@ -74,6 +74,7 @@ class ComposedTranslator:
     reader: SpanReader
     single: SpanTranslator
     taught: Taught | None = None
+    nearby: Taught | None = None
 
     @classmethod
     def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
@@ -90,16 +91,18 @@ class ComposedTranslator:
         """The words that it knows to say what to do, and not with what."""
         return frozenset(self.reader.model.network.config.words)
 
-    def knowing(self, taught: Taught) -> Self:
-        """The same, with clauses that are said as they were taught."""
-        return replace(self, taught=taught)
+    def knowing(self, taught: Taught, *, nearby: Taught | None = None) -> Self:
+        """The same, with clauses that are said as they were taught; what clauses may say that say nothing else is asked
+        of `nearby`.
+        """
+        return replace(self, taught=taught, nearby=nearby or taught)
 
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """See `Translator`."""
         spoken = marked_words(text)
         if not any(not is_mark(word) for word in spoken):
             return ()
-        understand = _Clauses(self.single, self.taught)
+        understand = _Clauses(self.single, self.taught, self.nearby)
         whole = understand.alone(text)
         if understood(whole) >= SURE:
             return whole[:candidates]
@@ -128,7 +131,7 @@ class ComposedTranslator:
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if _several(shape.shape)]
-        found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught))
+        found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught, self.nearby))
         return _ranked(found, 0.0 if asked else refusal, candidates)
 
     def _weighed(
@@ -228,6 +231,7 @@ class _Clauses:
 
     single: SpanTranslator
     taught: Taught | None
+    nearby: Taught | None
     _read: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
     _known: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
 
@@ -261,8 +265,10 @@ class _Clauses:
         if new:
             self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
         unknown = [text for text in dict.fromkeys(texts) if text not in self._known]
-        if unknown and self.taught is not None:
-            self._known.update(zip(unknown, self.taught.translate_all(unknown, candidates=BEAM_WIDTH), strict=True))
+        for taught, asked in ((self.taught, True), (self.nearby, False)):
+            part = [text for text in unknown if (understood(self._read[text]) >= ALONE) is asked]
+            if part and taught is not None:
+                self._known.update(zip(part, taught.translate_all(part, candidates=BEAM_WIDTH), strict=True))
 
 
 def _asked(taught: Sequence[Translation]) -> Sequence[Translation]:

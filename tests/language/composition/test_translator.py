@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 
-from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
+from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Translation, Utterance
 from models.queries import Composition, ContextualQuery, parse_task
 
 
@@ -72,6 +74,19 @@ def test_taught_clauses(translator: ComposedTranslator) -> None:
     found = translator.knowing(taught).translate("never water the tulips")
     assert str(found[0].query) == "avoid(water(tulips))"
     assert not any("water(" in str(reading.query) for reading in translator.translate("never water the tulips"))
+
+
+class Eager:
+    """Takes everything for one task."""
+
+    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
+        return [(Translation(parse_task("other(thing)"), 0.4),)] * len(texts)
+
+
+def test_only_what_says_nothing_else_is_asked_of_what_is_near(translator: ComposedTranslator) -> None:
+    knowing = translator.knowing(TaughtTranslator.of([]), nearby=Eager())
+    assert best(knowing, "never pick up the ball") == "avoid(pickup(ball))"
+    assert best(knowing, "pick up the ball, then marinate the carrots") == "then(pickup(ball), other(thing))"
 
 
 def test_a_single_task_is_a_contextual_query_and_several_are_a_composition(translator: ComposedTranslator) -> None:
