@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal
 
@@ -223,7 +223,7 @@ def _meaning_of(services: Services, order: PlanOrder, environment: Environment) 
             assert best.refusal is not None
             best.refusal.places = ()  # they are in a contextual query that the caller did not write
             raise best.refusal
-        return best.meaning
+        return replace(best.meaning, confidence=best.confidence)
 
 
 def _source(order: PlanOrder) -> str:

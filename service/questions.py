@@ -26,6 +26,8 @@ from service.understanding import Understanding, of_reading
 
 CLOSE = 0.6
 """A reading that is as probable as this part of the likeliest may be meant as well."""
+DOUBTFUL = 0.25
+"""A reading that is less probable than this is asked about, whatever else may be meant."""
 MAX_CHOICES = 20
 """Most choices of a question; what fits more things is asked without naming any."""
 
@@ -59,7 +61,8 @@ def question_of(readings: Sequence[Understanding], taught: Taught, environment: 
     """What has to be asked before the readings, best first, can be acted on; None when nothing is open.
 
     Asked is, in this order: which of the things that a phrase fits, or which thing is called by an unknown word where
-    all other arguments are known; and which of two readings, when the second is nearly as probable.
+    all other arguments are known; and which of the readings is meant, when another is nearly as probable or the best is
+    improbable itself.
     """
     if not readings or environment is None:
         return None
@@ -91,7 +94,7 @@ def answered(
         if answer.choice not in question.choices:
             raise _wrong(number, "/choice", f'"{answer.choice}" is none of the choices: {", ".join(question.choices)}')
         if question.about == "reading":
-            left = tuple(reading for reading in left if str(reading.query) == answer.choice)
+            left = tuple(replace(r, confidence=1.0) for r in left if str(r.query) == answer.choice)
             continue
         if (answer.part, answer.argument) != (question.part, question.argument):
             raise _wrong(number, "/argument", f'asked is argument {question.argument} of the part "{question.part}"')
@@ -137,18 +140,19 @@ def _called(
 
 
 def _either(readings: Sequence[Understanding], environment: Environment) -> Question | None:
-    """Which of the readings that are nearly as probable as the first and mean something else."""
+    """Which of the readings that are nearly as probable as the first and mean something else; or whether any of the
+    readings that make sense is meant, where the first is hardly probable.
+    """
     best = readings[0]
     if best.meaning is None:
         return None
+    doubtful = best.confidence < DOUBTFUL
     formulas = {best.meaning.formula: best}
     for reading in readings[1:]:
-        if reading.meaning is not None and reading.confidence >= CLOSE * best.confidence > 0:
+        if reading.meaning is not None and (doubtful or reading.confidence >= CLOSE * best.confidence > 0):
             formulas.setdefault(reading.meaning.formula, reading)
-    if len(formulas) < 2 or any(reading.query is None for reading in formulas.values()):
-        return None
     says = tuple(explain(formula, environment) for formula in formulas)
-    if len(set(says)) < 2:
+    if any(reading.query is None for reading in formulas.values()) or (len(set(says)) < 2 and not doubtful):
         return None
     choices = tuple(str(reading.query) for reading in formulas.values())
     return Question("reading", f"do you mean: {'; or: '.join(says)}?", choices, says)

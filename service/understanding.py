@@ -28,13 +28,14 @@ NEAREST = 3
 @dataclass(frozen=True, slots=True)
 class Meaning:
     """A formula; and unless it was said as a formula, the query as it was grounded, the warnings of the templates, and
-    by task the words that were taught for it.
+    by task the words that were taught for it. `confidence` is that of the reading of a command, where it is one.
     """
 
     formula: Formula
     grounded: GroundedQuery | None = None
     warnings: tuple[str, ...] = ()
     words: tuple[tuple[str, str], ...] = ()
+    confidence: float | None = None
 
     @property
     def query(self) -> Query | None:

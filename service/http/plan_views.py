@@ -24,7 +24,7 @@ from service.http.schemas import (
     VerifiedOut,
 )
 from service.http.schemas.problems import Problem
-from service.http.views import bindings_out, query_out
+from service.http.views import bindings_out, query_out, rounded
 from service.jobs import Planned, planned
 from service.store import StoredJob
 from service.understanding import Meaning
@@ -34,6 +34,7 @@ def described(meaning: Meaning, environment: Environment, *, objective: str) -> 
     """What is known of a plan's answer before planning."""
     return {
         "objective": objective,
+        "confidence": rounded(meaning.confidence),
         "contextual_query": None if meaning.query is None else query_out(meaning.query).model_dump(mode="json"),
         "ltl": formula_text(meaning.formula),
         "explanation": meaning.explanation(environment),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import zip_longest
-from typing import Any
+from typing import Any, overload
 from urllib.parse import quote
 
 from models.errors import Place
@@ -138,12 +138,25 @@ def translated_out(translated: Translated) -> TranslateResponse:
     )
 
 
+@overload
+def rounded(confidence: float) -> float: ...
+
+
+@overload
+def rounded(confidence: float | None) -> float | None: ...
+
+
+def rounded(confidence: float | None) -> float | None:
+    """What float32 gives alike on every machine."""
+    return None if confidence is None else round(confidence, 4)
+
+
 def _candidate(reading: Understanding, environment: Environment | None) -> CandidateOut:
     meaning = reading.meaning
     return CandidateOut(
         contextual_query=None if reading.query is None else query_out(reading.query),
         ltl=None if meaning is None else formula_text(meaning.formula),
-        confidence=round(reading.confidence, 4),  # what float32 gives alike on every machine
+        confidence=rounded(reading.confidence),
         explanation=None if meaning is None or environment is None else meaning.explanation(environment),
         bindings=[] if meaning is None else bindings_out(meaning),
         warnings=[] if meaning is None else list(meaning.warnings),

@@ -146,6 +146,9 @@ class PlanResponse(BaseModel):
         "goal is the formula, or its negation where the objective is `min`."
     )
     objective: Literal["max", "min"]
+    confidence: float | None = Field(
+        None, description="Probability that the command was meant so; null where a query or a formula was given."
+    )
     contextual_query: ContextualQueryTree | None
     ltl: str
     explanation: str

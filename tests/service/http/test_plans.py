@@ -51,6 +51,7 @@ def test_both_sentences_of_the_paper_are_planned_and_driven_to_done(
     answer = plan(client, text=text, environment=environment)
     assert answer["outcome"] == "solved"
     assert answer["contextual_query"]["text"] == query
+    assert 0.9 < answer["confidence"] <= 1.0
     assert answer["probability"] == {"lower": 1.0, "upper": 1.0}
     assert answer["model"]["states"] == 4 * 5 * 6
     assert answer["trajectory_complete"]
@@ -73,6 +74,7 @@ def test_both_sentences_of_the_paper_are_planned_and_driven_to_done(
 def test_a_query_and_its_formula_give_the_same_plan(client: httpx.Client) -> None:
     one = plan(client, contextual_query="pickup(sphere)", environment="toys-4x1-sphere")
     two = plan(client, ltl="F holding(sphere)", environment="toys-4x1-sphere")
+    assert (one["confidence"], two["confidence"]) == (None, None)
     assert one["id"] == two["id"]
     assert (one["trajectory"], one["probability"]) == (two["trajectory"], two["probability"])
 
