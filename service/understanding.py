@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import chain
 
 from models.errors import CqltlError
 from models.language import BEAM_WIDTH
@@ -14,7 +15,7 @@ from models.language.reading import (
     rank_formulas,
 )
 from models.logic import Formula
-from models.queries import Binding, GroundedQuery, Path, Query, explain_query
+from models.queries import Binding, GroundedQuery, Path, Query, explain_query, review_composition
 from models.world import Environment, explain
 from service.services import Services
 from service.store import StoredTemplate
@@ -57,7 +58,8 @@ class Meaning:
     def of(cls, grounded: GroundedQuery, stored: Iterable[StoredTemplate]) -> Meaning:
         """The meaning of a query that was put into its templates."""
         templates = tuple(stored)
-        warnings = dict.fromkeys(warning for template in templates for warning in template.warnings)
+        warned = chain.from_iterable(template.warnings for template in templates)
+        warnings = dict.fromkeys((*warned, *review_composition(grounded)))
         words = {template.task: template.explanation for template in templates if template.explanation}
         return cls(grounded.formula, grounded, tuple(warnings), tuple(words.items()))
 

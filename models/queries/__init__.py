@@ -31,7 +31,7 @@ from models.queries.learning import Example, learn
 from models.queries.lifting import LiftedFormula, lift, resolve_grounded
 from models.queries.meaning import compose
 from models.queries.query_text import parse_query, parse_task
-from models.queries.review import review
+from models.queries.review import review, review_composition
 from models.queries.template import Binding, GroundedTask, Template, check_arity, evaluate, parameter_kinds, put_in
 
 __all__ = [
@@ -76,4 +76,5 @@ __all__ = [
     "put_in",
     "resolve_grounded",
     "review",
+    "review_composition",
 ]

@@ -4,9 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from models.logic import Name, atoms, is_satisfiable, is_valid, simplify, to_text
+from models.logic import (
+    FormulaTooLargeError,
+    Name,
+    SpotMissingError,
+    atoms,
+    is_satisfiable,
+    is_valid,
+    simplify,
+    to_text,
+)
+from models.queries.contextual_query import Composition
+from models.queries.evaluation import GroundedQuery
 from models.queries.template import Template
 from models.world import Environment, atom_symbols
+
+MOST_REVIEWED = 600
+"""Characters of a composed query's formula beyond which Spot is not asked about it: it answers the others in a
+millisecond.
+"""
 
 
 def review(template: Template, environment: Environment) -> tuple[str, ...]:
@@ -28,6 +44,21 @@ def review(template: Template, environment: Environment) -> tuple[str, ...]:
         )
     warnings.extend(_constants(template, environment))
     return tuple(warnings)
+
+
+def review_composition(grounded: GroundedQuery) -> tuple[str, ...]:
+    """A warning about a composed query whose parts contradict each other, or that asks for nothing; none about a single
+    task, whose template was reviewed, nor where the formula is too large to be looked at in passing.
+    """
+    formula = grounded.formula
+    if not isinstance(grounded.query, Composition) or len(to_text(formula)) > MOST_REVIEWED:
+        return ()
+    try:
+        if not is_satisfiable(formula):
+            return ("the parts contradict each other: no run can do all of this",)
+        return ("this always holds, so it asks for nothing",) if is_valid(formula) else ()
+    except (FormulaTooLargeError, SpotMissingError):
+        return ()
 
 
 def _constants(template: Template, environment: Environment) -> Iterator[str]:

@@ -15,6 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
 from models.errors import CqltlError
+from service.http.members import said
 from service.http.schemas.problems import ErrorPlace, Problem
 from service.refusals import refusal_data
 from service.store.dialect import is_full
@@ -133,8 +134,9 @@ def _invalid(request: Request, error: Exception) -> JSONResponse:
     if isinstance(error.body, (str, bytes)) and "json" not in request.headers.get("content-type", ""):
         detail = "the body is not marked as JSON: send it with the header Content-Type: application/json"
         return problem_response("unsupported-media-type", detail)
-    places = [ErrorPlace(pointer=_pointer(item, error.body), detail=item["msg"]) for item in found]
-    first = places[0]
+    places = [ErrorPlace(pointer=_pointer(item, error.body), detail=said(item, request)) for item in found]
+    unknown = [place for place, item in zip(places, found, strict=True) if item["type"] == "extra_forbidden"]
+    first = (unknown or places)[0]  # a misspelt member tells more than that the right one is missing
     return problem_response("validation", f"{first.pointer or 'the request'}: {first.detail}", errors=places)
 
 

@@ -10,6 +10,7 @@ from sqlalchemy import Connection, Text, bindparam, cast, delete, insert, select
 
 from models.errors import Place
 from service.errors import EnvironmentExistsError, UnknownEnvironmentError
+from service.names import MOST_COMPARED, or_rather
 from service.store.tables import environments
 from service.store.versions import WORLDS, raise_version
 
@@ -36,7 +37,7 @@ class EnvironmentRepository:
         """The environment; raises `UnknownEnvironmentError`."""
         found = self.find(name)
         if found is None:
-            raise _unknown(name)
+            raise self._unknown(name)
         return found
 
     def find(self, name: str) -> StoredEnvironment | None:
@@ -48,7 +49,7 @@ class EnvironmentRepository:
         """The data of the environment as JSON text; raises `UnknownEnvironmentError`."""
         found = self._connection.scalar(_TEXT, {"name": name})
         if found is None:
-            raise _unknown(name)
+            raise self._unknown(name)
         return str(found)
 
     def page(self, *, after: str = "", limit: int) -> list[StoredEnvironment]:
@@ -86,6 +87,6 @@ class EnvironmentRepository:
         self._connection.execute(delete(environments).where(environments.c.name == name))
         raise_version(self._connection, WORLDS)
 
-
-def _unknown(name: str) -> UnknownEnvironmentError:
-    return UnknownEnvironmentError(f'no environment is called "{name[:100]}"')
+    def _unknown(self, name: str) -> UnknownEnvironmentError:
+        known = self._connection.scalars(select(environments.c.name).limit(MOST_COMPARED)).all()
+        return UnknownEnvironmentError(f'no environment is called "{name[:100]}"{or_rather(name, known)}')

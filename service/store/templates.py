@@ -9,6 +9,7 @@ from typing import Any
 from sqlalchemy import Connection, Row, bindparam, delete, insert, select, update
 
 from service.errors import UnknownTemplateError
+from service.names import MOST_COMPARED, or_rather
 from service.store.examples import ExampleRepository, StoredExample
 from service.store.tables import templates
 from service.store.versions import LESSONS, raise_version
@@ -81,7 +82,9 @@ class TemplateRepository:
         """The template of the task; raises `UnknownTemplateError`."""
         found = self.find(task)
         if found is None:
-            raise UnknownTemplateError(f'no template is stored for a task "{task[:100]}"; POST /learn teaches one')
+            known = self._connection.scalars(select(templates.c.task).limit(MOST_COMPARED)).all()
+            hint = or_rather(task, known) or "; POST /learn teaches one"
+            raise UnknownTemplateError(f'no template is stored for a task "{task[:100]}"{hint}')
         return found
 
     def page(self, *, after: str = "", limit: int) -> list[StoredTemplate]:

@@ -236,3 +236,34 @@ def test_the_part_of_speech_in_the_sentence_decides_between_homonyms(client: htt
     asked = client.post("/ground", json={"contextual_query": "talk(orange)", "environment": "talks"})
     problem = check_problem(asked, "ambiguous-grounding", 422, ["/contextual_query/arguments/0"])
     assert problem["choices"] == ["thing.orange", "color.orange"]
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "pointer", "says"),
+    [
+        ("/translate", {"txt": "go"}, "/txt", 'did you mean "text"?'),
+        (
+            "/plan",
+            {"ltl": "F holding(bag)", "environment": "toys", "options": {"epsilo": 1}},
+            "/options/epsilo",
+            "epsilon",
+        ),
+        ("/translate", {"text": "go", "answers": [{"choic": "x"}]}, "/answers/0/choic", 'did you mean "choice"?'),
+        ("/plan", {"query": {"operandz": []}, "environment": "toys"}, "/query/operandz", '"operands"'),
+        ("/translate", {"text": "go", "xyz": 1}, "/xyz", "there are answers, candidates, environment"),
+    ],
+)
+def test_a_member_that_there_is_not_is_named_with_those_that_there_are(
+    client: httpx.Client, path: str, body: dict[str, Any], pointer: str, says: str
+) -> None:
+    problem = client.post(path, json=body).json()
+    assert problem["detail"].startswith(f"{pointer}: there is no such member")
+    assert says in problem["detail"]
+    assert pointer in [error["pointer"] for error in problem["errors"]]
+
+
+def test_parts_that_contradict_each_other_are_told(client: httpx.Client) -> None:
+    body = {"text": "go to the kitchen but never enter the kitchen", "environment": "toys"}
+    assert client.post("/translate", json=body).json()["warnings"] == [
+        "the parts contradict each other: no run can do all of this"
+    ]
