@@ -33,6 +33,8 @@ COMPOSED = 0.4
 """Confidence from which a text that means nothing as one task is taken for several."""
 DOUBTED = 0.3
 """What is left of the probability of a composition around one taught task."""
+AROUND = 0.5
+"""Probability of the compositions around a task from which it is not taken for the whole."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -200,13 +202,17 @@ def _senseless(readings: Sequence[Reading]) -> bool:
 
 
 def parted(near: Translation, heard: Sequence[Translation]) -> Translation:
-    """A task that is a clause of what was heard is hardly all that the text says, the less where it is forbidden."""
+    """A task that is probably a clause of what was heard is hardly all that the text says, the less where it is
+    forbidden.
+    """
     said = {task.task for _, task in near.query.tasks}
-    for translation in heard:
-        tasks = [task.task for _, task in translation.query.tasks]
-        if isinstance(translation.query, Composition) and said.intersection(tasks):
-            return replace(near, confidence=DOUBTED * near.confidence)
-    return near
+    around = sum(
+        translation.confidence
+        for translation in heard
+        if isinstance(translation.query, Composition)
+        and not said.isdisjoint(task.task for _, task in translation.query.tasks)
+    )
+    return replace(near, confidence=DOUBTED * near.confidence) if around >= AROUND else near
 
 
 def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:

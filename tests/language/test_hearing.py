@@ -67,6 +67,14 @@ def test_a_task_that_is_forbidden_is_not_all_that_is_said(lessons: Lessons) -> N
     assert lessons.doubted(heard[0], near) == heard[0]
 
 
+def test_a_task_is_not_doubted_for_what_was_hardly_heard(lessons: Lessons) -> None:
+    """ "Do not forget to water the hedge" forbids nothing."""
+    assert parted(Translation(A, 0.8), (Translation(avoid(A), 0.3), Translation(avoid(B), 0.6))) == Translation(A, 0.8)
+    assert parted(Translation(A, 0.8), (Translation(avoid(A), 0.3), Translation(avoid(avoid(A)), 0.3))) != Translation(
+        A, 0.8
+    )
+
+
 def test_a_composition_around_one_taught_task_may_be_another_task_in_other_words(lessons: Lessons) -> None:
     """ "No lamp should be left on" is near to turning it off, not to leaving it on."""
     heard = Translation(avoid(A), 0.6)

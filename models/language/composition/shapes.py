@@ -16,6 +16,8 @@ SINGLE = "1"
 """The shape of one command alone."""
 
 _NUMBER = re.compile(r"\d")
+_PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
+_PLAIN_LIST = re.compile(r"and\([\d, ]+\)")
 
 
 @lru_cache(maxsize=256)
@@ -58,3 +60,30 @@ def _inside(shape: Query, *, within: bool) -> set[int]:
         return {int(shape.arguments[0])} if within else set()
     within = within or shape.operator in (Operator.AVOID, Operator.UNTIL)
     return {number for operand in shape.operands for number in _inside(operand, within=within)}
+
+
+def in_one_clause(query: Query) -> bool:
+    """Whether it is of a task class that is said in one clause; the others are sequences of what others say."""
+    return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
+
+
+def of_several_clauses(query: Query) -> bool:
+    """Whether it is of a task class that takes several clauses to say, and says more than each of them: to put a thing
+    in a box "and" carry that off.
+    """
+    return isinstance(query, ContextualQuery) and query.task not in (*ONE_CLAUSE, *SEQUENCES)
+
+
+def has_several(shape: str) -> bool:
+    """Whether a shape has more than one clause."""
+    return shape != SINGLE
+
+
+def is_plain(shape: str) -> bool:
+    """Whether a shape is one clause, or clauses one after the other and nothing else."""
+    return not has_several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None
+
+
+def is_listed(shape: str) -> bool:
+    """As `_plain`, or clauses in any order."""
+    return is_plain(shape) or _PLAIN_LIST.fullmatch(shape) is not None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -13,13 +12,22 @@ from models.language.composition.arrangement import Arrangement, arranged_as, un
 from models.language.composition.avoidance import meanings
 from models.language.composition.clauses import Understand, readings
 from models.language.composition.marks import MarkedReader
-from models.language.composition.shapes import ONE_CLAUSE, SEQUENCES, SINGLE, filled, read_shape
+from models.language.composition.shapes import (
+    SINGLE,
+    filled,
+    has_several,
+    in_one_clause,
+    is_listed,
+    is_plain,
+    of_several_clauses,
+    read_shape,
+)
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
 from models.language.translation import BEAM_WIDTH, Translation, weighed
-from models.queries import ContextualQuery, Query, QuerySyntaxError
+from models.queries import Query, QuerySyntaxError
 
 NAME = "composition"
 SEQUENCE = "then("
@@ -49,10 +57,6 @@ JOINING = frozenset({"and", "then", "but", "or"})
 WHILE = frozenset({"while", "whilst", "during"})
 MOST = 4
 """Ways to put clauses together that are looked at."""
-
-
-_PLAIN_SEQUENCE = re.compile(r"then\([\d, ]+\)")
-_PLAIN_LIST = re.compile(r"and\([\d, ]+\)")
 
 
 class Taught(Protocol):
@@ -115,10 +119,10 @@ class ComposedTranslator:
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
-            alone = not _outvoted(understood(whole), _part(shapes, _several))
-            certain = understood(whole) >= CERTAIN and _of_several_clauses(whole[0].query)
-            listed = _listed if certain else _plain
-            if (_in_one_clause(whole[0].query) and alone) or _part(shapes, listed) >= ALONE:
+            alone = not _outvoted(understood(whole), _part(shapes, has_several))
+            certain = understood(whole) >= CERTAIN and of_several_clauses(whole[0].query)
+            listed = is_listed if certain else is_plain
+            if (in_one_clause(whole[0].query) and alone) or _part(shapes, listed) >= ALONE:
                 return whole[:candidates]
         return _ranked(self._weighed(whole, shapes, spoken, understand), refusal, candidates)
 
@@ -130,7 +134,7 @@ class ComposedTranslator:
         if not any(not is_mark(word) for word in spoken):
             return ()
         shapes, refusal = self._shapes(spoken)
-        composed = [shape for shape in shapes if _several(shape.shape)]
+        composed = [shape for shape in shapes if has_several(shape.shape)]
         found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught, self.nearby))
         return _ranked(found, 0.0 if asked else refusal, candidates)
 
@@ -290,33 +294,6 @@ def _outvoted(understood: float, other: float) -> bool:
     confidence: the two saw different texts in training, so their odds are multiplied.
     """
     return understood * (1.0 - other) < (1.0 - understood) * other
-
-
-def _in_one_clause(query: Query) -> bool:
-    """Whether it is of a task class that is said in one clause; the others are sequences of what others say."""
-    return isinstance(query, ContextualQuery) and query.task in ONE_CLAUSE
-
-
-def _of_several_clauses(query: Query) -> bool:
-    """Whether it is of a task class that takes several clauses to say, and says more than each of them: to put a thing
-    in a box "and" carry that off.
-    """
-    return isinstance(query, ContextualQuery) and query.task not in (*ONE_CLAUSE, *SEQUENCES)
-
-
-def _several(shape: str) -> bool:
-    """Whether a shape has more than one clause."""
-    return shape != SINGLE
-
-
-def _plain(shape: str) -> bool:
-    """Whether a shape is one clause, or clauses one after the other and nothing else."""
-    return not _several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None
-
-
-def _listed(shape: str) -> bool:
-    """As `_plain`, or clauses in any order."""
-    return _plain(shape) or _PLAIN_LIST.fullmatch(shape) is not None
 
 
 def _part(shapes: Sequence[Arrangement], fits: Callable[[str], bool]) -> float:
