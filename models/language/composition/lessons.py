@@ -24,7 +24,7 @@ from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, REFERRED, L
 from models.language.spans.names import names
 from models.language.spans.tags import Span
 from models.language.spans.training import Settings
-from models.language.tokens import is_punctuation, marked_words
+from models.language.tokens import marked_words
 
 SETTINGS = Settings(epochs=26, batch=40, embedding=32, encoder=192, dropout=0.2)
 """How the network is fitted."""
@@ -34,10 +34,8 @@ FOLLOWING = 16
 """Texts of a composition that has no patterns of its own."""
 RENAMED = 0.4
 """Part of the names in texts of no command that are replaced: no name alone tells that nothing is asked for."""
-NESTED, FEW = 0.08, 10
-"""Part of the texts of other compositions that are patterns within patterns, at least; half of those of which there are
-so few patterns.
-"""
+NESTED = 0.08
+"""Part of the texts of other compositions that are patterns within patterns."""
 UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
@@ -45,7 +43,7 @@ LOST = 0.15
 _REPEATED = ("object", "place", "container")
 PLACE_KINDS = ("location", "first")
 """Rooms, and landmarks of a city."""
-FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.18, 0.07, 0.35
+FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.15, 0.04, 0.35
 """Parts of the texts with something polite around them, with typing mistakes, with several, and pronouns for what was
 named before.
 """
@@ -68,8 +66,7 @@ class CompositionLessons:
     @classmethod
     def load(cls, *, seed: int) -> Self:
         """With the commands of one task that are drawn with a seed; U and the held-out lists are never drawn."""
-        # With remarks short commands look like remarks.
-        texts = no_task(seed=seed, joined=False, remarks=False, stories=True)
+        texts = no_task(seed=seed, joined=False, remarks=False)  # else short commands look like remarks
         refused, held_out = (
             [Item(spoken) for text in part if (spoken := marked_words(text))]
             for part in (texts.training, texts.held_out)
@@ -79,8 +76,7 @@ class CompositionLessons:
     @property
     def tasks(self) -> tuple[tuple[str, int], ...]:
         """The shapes with their numbers of clauses."""
-        composed = (shape for shape in _times() if shape != SINGLE)
-        return ((SINGLE, 1), *((shape, len({task for _, task in read_shape(shape).tasks})) for shape in composed))
+        return ((SINGLE, 1), *((shape, len({task for _, task in read_shape(shape).tasks})) for shape in _times()))
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -119,28 +115,23 @@ class CompositionLessons:
     def composed(self, shape: str, generator: random.Random) -> Item:
         """A text of a shape."""
         own = patterns().get(shape, ())
-        rather_nested = shape in nestings() and generator.random() < max(NESTED, FEW / (FEW + len(own)))
+        rather_nested = shape in nestings() and (not own or generator.random() < NESTED)
         pattern = nested(shape, generator) if rather_nested else generator.choice(own)
         chosen = _leaves(pattern, generator)
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
         mentions: list[tuple[Span, ...]] = [()] * len({hole.leaf for hole in pattern.holes})
         earlier: dict[str, bool] = {}
-        heard: dict[int, list[str]] = {}
         for element in pattern.elements:
             if isinstance(element, str):
-                if not is_punctuation(element) or generator.random() < keeps:
+                if element.isalnum() or len(element) > 1 or generator.random() < keeps:
                     text.append(element)
-                continue
-            if element.form == "echo":
-                text += heard[element.leaf]
                 continue
             said = self._said(chosen[element.leaf], element.form, generator, earlier)
             if text and text[-1] == "no" and said[0] in DETERMINERS:
                 said = said[1:]
             mentions[element.leaf - 1] += ((len(text), len(text) + len(said)),)
             text += said
-            heard.setdefault(element.leaf, said)
             text += self._beside(element, chosen[element.leaf], keeps, generator)
         item = Item(tuple(text), shape, tuple(mentions))
         first = pattern.elements[0]

@@ -35,7 +35,6 @@ class _NoTaskData(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
     sentences: list[str] = Field(min_length=HELD_BACK)
     remarks: list[str] = Field(min_length=HELD_BACK)
-    stories: list[str] = Field(min_length=HELD_BACK)
     verbs: list[str] = Field(min_length=4 * HELD_BACK)  # a frame may hold two
     frames: list[str] = Field(min_length=HELD_BACK)
     around: list[str] = Field(min_length=HELD_BACK)
@@ -54,28 +53,26 @@ class NoTask:
 
 
 @cache
-def no_task(*, seed: int = 0, joined: bool = True, remarks: bool = True, stories: bool = False) -> NoTask:
+def no_task(*, seed: int = 0, joined: bool = True, remarks: bool = True) -> NoTask:
     """The texts, the same for the same seed: sentences; frames filled with words; commands that are negated, asked
     about, made another task by a condition or a clause, or joined; commands cut short or said backwards; letters
     without sense. Only words of the seen vocabularies and open words for training are spoken of.
 
     Without `joined` only those that ask for nothing at all, neither one thing nor several; without `remarks` fewer
-    sentences about the places and things of commands, and with `stories` more of them: of what was done, or might be.
+    sentences about the places and things of commands.
     """
-    training = _texts(Half.TRAINING, seed, joined, remarks, stories)
+    training = _texts(Half.TRAINING, seed, joined, remarks)
     read = {words(text) for text in training}  # two commands may be the same when cut short
     return NoTask(
-        training,
-        tuple(text for text in _texts(Half.HELD_OUT, seed, joined, remarks, stories) if words(text) not in read),
+        training, tuple(text for text in _texts(Half.HELD_OUT, seed, joined, remarks) if words(text) not in read)
     )
 
 
-def _texts(part: Half, seed: int, joined: bool, remarks: bool, stories: bool) -> tuple[str, ...]:
+def _texts(part: Half, seed: int, joined: bool, remarks: bool) -> tuple[str, ...]:
     data, generator = _read(), random.Random(f"no task/{seed}/{part}")
     verbs = half(data.verbs, part)
     asked = half(data.frames, part)
     texts = [*half(data.sentences, part), *(half(data.remarks, part) if remarks else ())]
-    texts += half(data.stories, part) if stories else ()
     if joined:
         texts.extend(_filled(frame, verbs, generator) for frame in asked for _ in range(SPOKEN[part] // 2))
         acts = [frame for frame in asked if "{verb}" in frame]
