@@ -1,7 +1,7 @@
 """Text to words: the tokeniser that training and translation share.
 
 Case is folded to lower case and punctuation is dropped, so neither changes a translation. A hyphen, an apostrophe, a
-dot or an ampersand inside a word stays: `yo-yo`, `o'hare`, `h&m`.
+dot or an ampersand inside a word stays: `yo-yo`, `o'hare`, `h&m`. A slash between words parts them: `kitchen/hall`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,11 @@ MAX_WORDS = 200
 """Longest text of a command, in words; the longest of the published human commands has about 75."""
 
 _RUN = re.compile(r"""[^\s,;:!?"“”„«»()\[\]{}<>…—–¡¿]+""")
-_MARK = re.compile(r"[,;:.!?]")
+_BETWEEN = re.compile(r"(?<=[^\W\d_]{3})[/|+](?=[^\W\d_]{3})")
+"""A sign between two words that are written as one: `kitchen/hall`; not `w/o`."""
+_MARK = re.compile(r"[,;:.!?]|<-+>|↔|[-=]*>+|→|[+&]|[/|]")
+_PUNCTUATION = re.compile(r"[,;:.!?]")
+_SIGNS = {"↔": "<->", "→": "->", "&": "+", "|": "/"}
 _DROPPED = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
@@ -40,7 +44,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
         TextTooLongError: more than `MAX_CHARACTERS` characters or `MAX_WORDS` words.
     """
     check_length(text)
-    tokens = tuple(token for run in _RUN.finditer(visible(text)) if (token := _token(run)) is not None)
+    tokens = tuple(token for run in _RUN.finditer(_parted(visible(text))) if (token := _token(run)) is not None)
     if len(tokens) > MAX_WORDS:
         raise _too_long(f"a command has at most {MAX_WORDS} words, not {len(tokens)}")
     return tokens
@@ -52,16 +56,23 @@ def words(text: str) -> tuple[str, ...]:
 
 
 def marked_words(text: str) -> tuple[str, ...]:
-    """The folded words of a text and the marks `, ; : . ! ?` between them; raises as `tokenize` does."""
+    """The folded words of a text and between them the marks `, ; : . ! ?` and the signs that stand for words: `->`
+    (arrows), `<->`, `+` (`&` too) and `/` (`|` too). Raises as `tokenize` does.
+    """
     tokens = tokenize(text)
     inside = {place for token in tokens for place in range(token.start, token.end)}
-    marks = [Token(m.group(), m.start(), m.end()) for m in _MARK.finditer(text) if m.start() not in inside]
+    marks = [Token(_sign(m[0]), m.start(), m.end()) for m in _MARK.finditer(text) if m.start() not in inside]
     return tuple(token.text for token in sorted([*tokens, *marks], key=lambda token: token.start))
 
 
 def is_mark(word: str) -> bool:
     """Whether it is one of the marks of `marked_words`."""
     return _MARK.fullmatch(word) is not None
+
+
+def is_punctuation(word: str) -> bool:
+    """Whether it is a mark that says nothing by itself: none of the signs that stand for words."""
+    return _PUNCTUATION.fullmatch(word) is not None
 
 
 def find(phrase: Sequence[str], text: Sequence[str]) -> int | None:
@@ -85,6 +96,18 @@ def visible(text: str) -> str:
     return "".join(" " if unicodedata.category(character) in _DROPPED else character for character in text)
 
 
+def _parted(text: str) -> str:
+    """The text with signs between words blanked; addresses such as `example.com/index` are left as they are."""
+    if not _BETWEEN.search(text):
+        return text
+    return _RUN.sub(lambda run: run[0] if "." in run[0][:-1] else _BETWEEN.sub(" ", run[0]), text)
+
+
+def _sign(mark: str) -> str:
+    """The mark, spelled in one way."""
+    return "<->" if mark.startswith("<") else "->" if mark.endswith(">") else _SIGNS.get(mark, mark)
+
+
 def _token(run: re.Match[str]) -> Token | None:
     start, end = run.span()
     raw = run.group()
@@ -96,7 +119,7 @@ def _token(run: re.Match[str]) -> Token | None:
 
 
 def _is_punctuation(character: str) -> bool:
-    return unicodedata.category(character).startswith("P") or character in "`´^~=+|$<>"
+    return unicodedata.category(character).startswith("P") or character in "`´^~=+|$<>→↔"
 
 
 def _too_long(detail: str) -> TextTooLongError:

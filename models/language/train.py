@@ -1,14 +1,16 @@
 """Train everything that ships, or one part of it.
 
-    python -m models.language.train                  the default translator's two networks, and the paper's systems
+    python -m models.language.train                  the default translator's networks, and the paper's systems
     python -m models.language.train default --seed 1 --output FOLDER
-    python -m models.language.train composition
+    python -m models.language.train composition                          two networks, one after the other
+    python -m models.language.train composition --member 1 --device cuda   one of them, on a GPU
     python -m models.language.train matching
     python -m models.language.train paper --domain navigation --hide 0.25 --output FOLDER
 
 Writes, into the output folder, for each model `NAME.safetensors` (the tensors) and `NAME.json` (vocabulary, sizes,
 hyper-parameters), and the training curves. One thread; the same seed gives the same weights on the same kind of
-machine. `python -m models.language.evaluate` measures what was made.
+machine. Networks that are trained on another device differ from those of the CPU as those of another seed do.
+`python -m models.language.evaluate` measures what was made.
 """
 
 from __future__ import annotations
@@ -23,12 +25,12 @@ from pathlib import Path
 import torch
 
 from models.language import copynet
-from models.language.composition import NAME
+from models.language.composition import NAMES
 from models.language.composition.lessons import SETTINGS, CompositionLessons
 from models.language.composition.marks import MarkedReader
 from models.language.dataset import Domain, no_task
 from models.language.dataset.tasks import task_classes
-from models.language.encoder import WordReader, encoder
+from models.language.encoder import Encoder, WordReader, encoder
 from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
@@ -50,9 +52,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = _read_options(arguments)
     torch.set_num_threads(1)  # the networks are small: a second thread makes every step slower
     if options.what in ("default", "all"):
-        train_default(_chosen(spans.Settings(), options), seed=options.seed, folder=options.output)
+        chosen = _chosen(spans.Settings(), options)
+        train_default(chosen, seed=options.seed, folder=options.output, device=options.device)
     if options.what in ("composition", "all"):
-        train_composition(_chosen(SETTINGS, options), seed=options.seed, folder=options.output)
+        for member in range(len(NAMES)) if options.member is None else (options.member,):
+            chosen = _chosen(SETTINGS, options)
+            train_composition(chosen, member=member, seed=options.seed, folder=options.output, device=options.device)
     if options.what in ("matching", "all"):
         train_matching(matching.Settings(), seed=options.seed, folder=options.output)
     if options.what in ("paper", "all"):
@@ -61,15 +66,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         copynet.train_paper(domains, settings, seed=options.seed, folder=options.output, log=print)
 
 
-def train_default(settings: spans.Settings, *, seed: int, folder: Path) -> None:
+def train_default(settings: spans.Settings, *, seed: int, folder: Path, device: str = "cpu") -> None:
     """Train the default translator's network of single tasks, and write it with its curve."""
-    _train(Lessons.load(seed=seed), settings, seed=seed, folder=folder, name=DEFAULT_NAME)
+    lessons, words = Lessons.load(seed=seed), _encoder(device)
+    _train(lessons, settings, seed=seed, folder=folder, name=DEFAULT_NAME, words=words, device=device)
 
 
-def train_composition(settings: spans.Settings, *, seed: int, folder: Path) -> None:
-    """Train the network that finds the clauses of a command, and write it with its curve."""
-    lessons = CompositionLessons.load(seed=seed)
-    _train(lessons, settings, seed=seed, folder=folder, name=NAME, words=MarkedReader.load())
+def train_composition(settings: spans.Settings, *, member: int, seed: int, folder: Path, device: str = "cpu") -> None:
+    """Train one of the networks that find the clauses of a command, and write it with its curve; each member has a seed
+    of its own, counted from `seed`.
+    """
+    own, words = seed + member, MarkedReader.load(_encoder(device))
+    lessons = CompositionLessons.load(seed=own)
+    _train(lessons, settings, seed=own, folder=folder, name=NAMES[member], words=words, device=device)
 
 
 def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
@@ -107,7 +116,8 @@ def _train(
     seed: int,
     folder: Path,
     name: str,
-    words: WordReader | None = None,
+    words: WordReader,
+    device: str,
 ) -> None:
     curve: list[spans.Epoch] = []
 
@@ -115,11 +125,16 @@ def _train(
         curve.append(epoch)
         print(name, " ".join(f"{key} {value}" for key, value in epoch.items()))
 
-    model = spans.train(course, settings, seed=seed, log=log, words=words)
+    model = spans.train(course, settings, seed=seed, log=log, words=words, device=device)
     save_model(model, folder, name=name)
     record = {"training": dict(model.training), "epochs": curve}
     (folder / f"{name}-curve.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     print(f"{name}: temperature {model.temperature:.3f}")
+
+
+def _encoder(device: str) -> Encoder:
+    """The encoder that is installed, on a device."""
+    return encoder() if device == "cpu" else Encoder.load(packed=False).to(device)
 
 
 def _chosen(usual: spans.Settings, options: argparse.Namespace) -> spans.Settings:
@@ -141,6 +156,8 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--epochs", type=int, help="instead of the usual number of each")
     parser.add_argument("--share", type=float, default=1.0, help="default, composition: part of the texts of an epoch")
+    parser.add_argument("--member", type=int, choices=range(len(NAMES)), help="composition: one of the networks only")
+    parser.add_argument("--device", default="cpu", help="default, composition: where to train, such as cuda")
     parser.add_argument("--output", type=Path, default=SHIPPED, help="folder to write to")
     parser.add_argument("--domain", choices=[*Domain, "both"], default="both", help="paper: which T to train on")
     parser.add_argument("--hide", type=float, help="paper: part of the words that are shown as unknown words")

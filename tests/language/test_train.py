@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from models.language import TrainingError, train
-from models.language.composition import NAME
+from models.language.composition import NAMES
 from models.language.composition.lessons import SETTINGS
 from models.language.copynet import CqCopyNetTranslator
 from models.language.spans import DEFAULT_NAME, load_model, training
@@ -23,19 +23,21 @@ def _one_thread() -> Iterator[None]:
     torch.set_num_threads(threads)
 
 
-@pytest.mark.parametrize(("what", "name", "runs"), [("default", DEFAULT_NAME, "ab"), ("composition", NAME, "a")])
+@pytest.mark.parametrize(
+    ("what", "name", "runs"), [("default", DEFAULT_NAME, "ab"), ("composition --member 1", NAMES[1], "a")]
+)
 def test_the_default_translator(
     what: str, name: str, runs: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for folder in runs:
         given = ["--epochs", "2", "--seed", "7", "--share", "0.02", "--output", str(tmp_path / folder)]
-        train.main([what, *given])
+        train.main([*what.split(), *given])
     names = [f"{name}-curve.json", f"{name}.json", f"{name}.safetensors"]
     assert sorted(path.name for path in (tmp_path / "a").iterdir()) == names
     for file in names:
         assert len({(tmp_path / folder / file).read_bytes() for folder in runs}) == 1
     record = json.loads((tmp_path / "a" / names[0]).read_text())
-    assert record["training"]["seed"] == 7
+    assert record["training"]["seed"] == (8 if "1" in what else 7)  # each member of an ensemble has a seed of its own
     assert [epoch["epoch"] for epoch in record["epochs"]] == [1, 2]
     assert record["epochs"][1]["loss"] < record["epochs"][0]["loss"]
     assert "epoch 2" in capsys.readouterr().out
@@ -52,8 +54,9 @@ def test_the_systems_of_the_paper(tmp_path: Path) -> None:
 
 def test_what_ships_is_what_the_settings_say() -> None:
     """Weights that were made with other settings than those of the code could not be made again."""
-    for name, settings in ((DEFAULT_NAME, training.Settings()), (NAME, SETTINGS)):
-        expected = {"seed": 0, **{field: getattr(settings, field) for field in settings.__dataclass_fields__}}
+    composition = [(name, SETTINGS, seed) for seed, name in enumerate(NAMES)]
+    for name, settings, seed in ((DEFAULT_NAME, training.Settings(), 0), *composition):
+        expected = {"seed": seed, **{field: getattr(settings, field) for field in settings.__dataclass_fields__}}
         assert load_model(name=name).training == expected
     for model in (*CqCopyNetTranslator.load().models,):
         usual = train.copynet.Settings()

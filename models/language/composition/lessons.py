@@ -24,9 +24,9 @@ from models.language.spans.lessons import CLAUSE_SLOTS, DETERMINERS, REFERRED, L
 from models.language.spans.names import names
 from models.language.spans.tags import Span
 from models.language.spans.training import Settings
-from models.language.tokens import marked_words
+from models.language.tokens import is_punctuation, marked_words
 
-SETTINGS = Settings(epochs=26, batch=40, embedding=32, encoder=192, dropout=0.2)
+SETTINGS = Settings(epochs=16, batch=40, embedding=32, encoder=192, dropout=0.2)
 """How the network is fitted."""
 EACH, ALONE, NONE = 100, 1700, 1000
 """Texts of a composition on average, of one command alone, and of no command, in an epoch."""
@@ -34,8 +34,10 @@ FOLLOWING = 16
 """Texts of a composition that has no patterns of its own."""
 RENAMED = 0.4
 """Part of the names in texts of no command that are replaced: no name alone tells that nothing is asked for."""
-NESTED = 0.08
-"""Part of the texts of other compositions that are patterns within patterns."""
+NESTED, FEW = 0.08, 10
+"""Part of the texts of other compositions that are patterns within patterns, at least; half of those of which there are
+so few patterns.
+"""
 UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""
 LOST = 0.15
@@ -43,7 +45,7 @@ LOST = 0.15
 _REPEATED = ("object", "place", "container")
 PLACE_KINDS = ("location", "first")
 """Rooms, and landmarks of a city."""
-FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.15, 0.04, 0.35
+FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.18, 0.07, 0.35
 """Parts of the texts with something polite around them, with typing mistakes, with several, and pronouns for what was
 named before.
 """
@@ -51,6 +53,8 @@ REASON, ASIDE, PURPOSE = 0.07, 0.08, 0.06
 """Parts of the texts with a reason in front, and behind; of the clauses with something said beside them; and of the
 places that are visited for something.
 """
+LABELLED, BARE = 0.08, 0.8
+"""Part of the names that end in a letter or number, "shelf b", "gate 12", and part of these without an article."""
 REMARKS = 150
 """Reasons without a command in an epoch."""
 
@@ -76,7 +80,8 @@ class CompositionLessons:
     @property
     def tasks(self) -> tuple[tuple[str, int], ...]:
         """The shapes with their numbers of clauses."""
-        return ((SINGLE, 1), *((shape, len({task for _, task in read_shape(shape).tasks})) for shape in _times()))
+        composed = (shape for shape in _times() if shape != SINGLE)
+        return ((SINGLE, 1), *((shape, len({task for _, task in read_shape(shape).tasks})) for shape in composed))
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -115,23 +120,28 @@ class CompositionLessons:
     def composed(self, shape: str, generator: random.Random) -> Item:
         """A text of a shape."""
         own = patterns().get(shape, ())
-        rather_nested = shape in nestings() and (not own or generator.random() < NESTED)
+        rather_nested = shape in nestings() and generator.random() < max(NESTED, FEW / (FEW + len(own)))
         pattern = nested(shape, generator) if rather_nested else generator.choice(own)
         chosen = _leaves(pattern, generator)
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
         mentions: list[tuple[Span, ...]] = [()] * len({hole.leaf for hole in pattern.holes})
         earlier: dict[str, bool] = {}
+        heard: dict[int, list[str]] = {}
         for element in pattern.elements:
             if isinstance(element, str):
-                if element.isalnum() or len(element) > 1 or generator.random() < keeps:
+                if not is_punctuation(element) or generator.random() < keeps:
                     text.append(element)
+                continue
+            if element.form == "echo":
+                text += heard[element.leaf]
                 continue
             said = self._said(chosen[element.leaf], element.form, generator, earlier)
             if text and text[-1] == "no" and said[0] in DETERMINERS:
                 said = said[1:]
             mentions[element.leaf - 1] += ((len(text), len(text) + len(said)),)
             text += said
+            heard.setdefault(element.leaf, said)
             text += self._beside(element, chosen[element.leaf], keeps, generator)
         item = Item(tuple(text), shape, tuple(mentions))
         first = pattern.elements[0]
@@ -212,7 +222,9 @@ class CompositionLessons:
     def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
         kind = generator.choice(PLACE_KINDS) if slot == "place" else CLAUSE_SLOTS[slot]
         name, article = self.single.names.draw(kind, generator), not bare
-        if article and slot != "color" and generator.random() < REFERRED:
+        if slot != "color" and generator.random() < LABELLED:
+            name, article = (*name[-1:], _label(generator)), article and generator.random() > BARE
+        elif article and slot != "color" and generator.random() < REFERRED:
             name, article = self.single.refer(name, kind, False, generator)
         determiner = generator.choice(DETERMINERS) if article else ""
         return [*([determiner] if determiner else []), *name]
@@ -234,15 +246,23 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
     for hole in pattern.holes:
         if hole.leaf in chosen:
             continue  # its second piece
-        fitting: Sequence[Leaf] = [leaf for leaf in leaves() if _has(leaf, hole.form)]
+        fitting: Sequence[Leaf] = _said_as(hole.form)
         if bare or generator.random() < 0.5:
             fitting = [leaf for leaf in fitting if leaf.target == kind] or fitting
         chosen[hole.leaf] = generator.choice(fitting)
     return chosen
 
 
-def _has(leaf: Leaf, form: Form) -> bool:
-    return form == "it" or form in leaf.forms or form in leaf.pieces
+@cache
+def _said_as(form: Form) -> Sequence[Leaf]:
+    """The clauses that have a form."""
+    return [leaf for leaf in leaves() if form == "it" or form in leaf.forms or form in leaf.pieces]
+
+
+def _label(generator: random.Random) -> str:
+    """What tells one of several of a kind: a letter, a number, or both."""
+    letter, number = generator.choice("aaabbbccddefghkx"), str(generator.choice((generator.randint(1, 9), 10, 12, 42)))
+    return generator.choice((letter, letter, number, number, letter + number, number + letter))
 
 
 @cache

@@ -13,7 +13,7 @@ from typing import Self
 import torch
 from torch import Tensor
 
-from models.language.encoder import DeepReader, WordReader, encoder
+from models.language.encoder import DeepReader, Encoder, WordReader, encoder
 from models.language.tokens import is_mark
 
 
@@ -24,9 +24,9 @@ class MarkedReader:
     reader: WordReader
 
     @classmethod
-    def load(cls) -> Self:
-        """What the network of compositions reads with: all layers of the encoder that is installed."""
-        return cls(DeepReader(encoder()))
+    def load(cls, words: Encoder | None = None) -> Self:
+        """What the networks of compositions read with: all layers of an encoder, or of the one that is installed."""
+        return cls(DeepReader(words or encoder()))
 
     @property
     def size(self) -> int:
@@ -39,9 +39,12 @@ class MarkedReader:
         plain = [tuple(text[place] for place in kept) for text, kept in zip(texts, places, strict=True)]
         if all(len(kept) == len(text) for kept, text in zip(places, texts, strict=True)):
             return self.reader.read(plain)
-        vectors = torch.zeros(len(texts), max(map(len, texts)), self.size)
+        width = max(map(len, texts))
         spoken = [row for row, kept in enumerate(places) if kept]
-        if spoken:
-            for row, read in zip(spoken, self.reader.read([plain[row] for row in spoken]), strict=True):
-                vectors[row, places[row]] = read[: len(places[row])]
+        if not spoken:
+            return torch.zeros(len(texts), width, self.size)
+        found = self.reader.read([plain[row] for row in spoken])
+        vectors = found.new_zeros(len(texts), width, self.size)
+        for row, read in zip(spoken, found, strict=True):
+            vectors[row, places[row]] = read[: len(places[row])]
         return vectors

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol, Self
+from typing import Self
 
 from models.language.composition.arrangement import Arrangement, arranged_as, unended, unmarked
 from models.language.composition.avoidance import meanings
@@ -22,34 +22,27 @@ from models.language.composition.shapes import (
     of_several_clauses,
     read_shape,
 )
+from models.language.composition.understanding import ALONE, CERTAIN, SpokenClauses, Taught
+from models.language.spans.ensemble import SpanEnsemble
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
-from models.language.translation import BEAM_WIDTH, Translation, weighed
+from models.language.translation import Translation
 from models.queries import Query, QuerySyntaxError
 
-NAME = "composition"
+NAMES = ("composition-0", "composition-1")
+"""The networks that read how clauses belong together."""
 SEQUENCE = "then("
 """How the shapes of sequences begin."""
-ALONE = 0.5
-"""Probability of being one task from which nothing else is looked for."""
 SURE = 0.986
 """Probability of being one task from which the other network is not asked at all."""
-CERTAIN = 0.9
-"""Probability of being one task from which a sequence is not looked at, nor any mark of punctuation."""
-ASKED = 0.6
-"""Probability that a clause which says nothing else is near to what was taught."""
-TAUGHT = 0.9
-"""Most share of the taught readings of a clause; the environment may turn it round."""
 LEAST = 0.02
 """Ways to put clauses together that are less probable are not looked at."""
 LEAST_SHARE = 0.1
 """Nor those that are less probable than this share of the likeliest."""
 UNDERSTOOD = 0.2
 """Compositions that are less probable together than this are not read."""
-REFUSED = 0.25
-"""Odds of texts that ask for nothing, to those in training: the other network refuses most of them by itself."""
 APART = 0.7
 """Share of the readings of each clause by itself, where two of them may also be one task."""
 JOINING = frozenset({"and", "then", "but", "or"})
@@ -57,13 +50,6 @@ JOINING = frozenset({"and", "then", "but", "or"})
 WHILE = frozenset({"while", "whilst", "during"})
 MOST = 4
 """Ways to put clauses together that are looked at."""
-
-
-class Taught(Protocol):
-    """What understands clauses as they were taught."""
-
-    def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
-        """The readings of each text, best first, with confidences that add up to at most 1; raises TextTooLongError."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,15 +61,16 @@ class ComposedTranslator:
     there.
     """
 
-    reader: SpanReader
+    reader: SpanEnsemble
     single: SpanTranslator
     taught: Taught | None = None
     nearby: Taught | None = None
 
     @classmethod
-    def load(cls, single: SpanTranslator, folder: Path | None = None, *, name: str = NAME) -> Self:
-        """With the model of a folder, or the one that is shipped; raises WeightsError."""
-        return cls(SpanReader.of(load_model(folder, name=name), MarkedReader.load()), single)
+    def load(cls, single: SpanTranslator, folder: Path | None = None, *, names: Sequence[str] = NAMES) -> Self:
+        """With the models of a folder, or those that are shipped; raises WeightsError."""
+        words = MarkedReader.load()
+        return cls(SpanEnsemble([SpanReader.of(load_model(folder, name=name), words) for name in names]), single)
 
     @property
     def tasks(self) -> frozenset[str]:
@@ -93,7 +80,7 @@ class ComposedTranslator:
     @property
     def saying(self) -> frozenset[str]:
         """The words that it knows to say what to do, and not with what."""
-        return frozenset(self.reader.model.network.config.words)
+        return self.reader.words
 
     def knowing(self, taught: Taught, *, nearby: Taught | None = None) -> Self:
         """The same, with clauses that are said as they were taught; what clauses may say that say nothing else is asked
@@ -106,7 +93,7 @@ class ComposedTranslator:
         spoken = marked_words(text)
         if not any(not is_mark(word) for word in spoken):
             return ()
-        understand = _Clauses(self.single, self.taught, self.nearby)
+        understand = SpokenClauses(self.single, self.taught, self.nearby)
         whole = understand.alone(text)
         if understood(whole) >= SURE:
             return whole[:candidates]
@@ -135,7 +122,7 @@ class ComposedTranslator:
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if has_several(shape.shape)]
-        found = self._weighed((), composed, spoken, _Clauses(self.single, self.taught, self.nearby))
+        found = self._weighed((), composed, spoken, SpokenClauses(self.single, self.taught, self.nearby))
         return _ranked(found, 0.0 if asked else refusal, candidates)
 
     def _weighed(
@@ -159,6 +146,8 @@ class ComposedTranslator:
                 found[query] = found.get(query, 0.0) + (1.0 - single) * arranged.share * part
         if sum(found.values()) <= UNDERSTOOD:
             found = {}
+        if one_task >= CERTAIN:
+            found, alone = voted(found, alone, one_task)
         for translation in whole:
             found[translation.query] = found.get(translation.query, 0.0) + alone * translation.confidence
         return found
@@ -187,15 +176,14 @@ class ComposedTranslator:
                 found[arranged] = found.get(arranged, 0.0) + reading.probability
         ranked = sorted(found.items(), key=lambda item: -item[1])[:MOST]
         least = max(LEAST, ranked[0][1] * LEAST_SHARE) if ranked else 0.0
-        every = 1.0 - (1.0 - REFUSED) * refusal
-        kept = [replace(arranged, share=share / every) for arranged, share in ranked if share >= least]
+        kept = [replace(arranged, share=share) for arranged, share in ranked if share >= least]
         if kept and _at_once(kept[0]):
             return [], 1.0
-        return kept, REFUSED * refusal / every
+        return kept, refusal
 
 
 def _apart(
-    whole: Sequence[Translation], shapes: Sequence[Arrangement], spoken: Sequence[str], understand: _Clauses
+    whole: Sequence[Translation], shapes: Sequence[Arrangement], spoken: Sequence[str], understand: SpokenClauses
 ) -> tuple[Translation, ...]:
     """What a text says as one task; where that is not understood, what the command in it says, without reasons and
     remarks: "my knees hurt, so go to the bank for me".
@@ -229,64 +217,20 @@ def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, floa
     return found
 
 
-@dataclass(slots=True, eq=False)
-class _Clauses:
-    """What clauses may say: as they were taught, or else as they are read; each is read once."""
-
-    single: SpanTranslator
-    taught: Taught | None
-    nearby: Taught | None
-    _read: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
-    _known: dict[str, tuple[Translation, ...]] = field(default_factory=dict)
-
-    def __call__(self, text: str, /) -> Sequence[Translation]:
-        """See `Understand`."""
-        self.prepare([text])
-        read = self._read[text]
-        taught = self._known.get(text, ())
-        if not taught:
-            return read
-        if not read:
-            return _asked(taught)
-        if sum(translation.confidence for translation in taught) < CERTAIN:
-            return weighed(taught, read)
-        known = {translation.query for translation in taught}
-        total = sum(translation.confidence for translation in taught)
-        first = [replace(t, confidence=TAUGHT * t.confidence) for t in taught]
-        rest = [replace(t, confidence=(1 - TAUGHT * total) * t.confidence) for t in read if t.query not in known]
-        return sorted([*first, *rest], key=lambda t: -t.confidence)
-
-    def alone(self, text: str) -> tuple[Translation, ...]:
-        """What the whole text says as one task, not counting what was taught."""
-        if text not in self._read:
-            self._read[text] = self.single.translate(text, candidates=BEAM_WIDTH)
-        return self._read[text]
-
-    def prepare(self, texts: Iterable[str], /) -> None:
-        """See `Understand`."""
-        texts = list(texts)
-        new = [text for text in dict.fromkeys(texts) if text not in self._read]
-        if new:
-            self._read.update(zip(new, self.single.translate_all(new, candidates=BEAM_WIDTH), strict=True))
-        unknown = [text for text in dict.fromkeys(texts) if text not in self._known]
-        for taught, asked in ((self.taught, True), (self.nearby, False)):
-            part = [text for text in unknown if (understood(self._read[text]) >= ALONE) is asked]
-            if part and taught is not None:
-                self._known.update(zip(part, taught.translate_all(part, candidates=BEAM_WIDTH), strict=True))
-
-
-def _asked(taught: Sequence[Translation]) -> Sequence[Translation]:
-    """What a clause may say that says nothing else: as it asks for something, that is likelier than by itself."""
-    total = sum(translation.confidence for translation in taught)
-    return [replace(t, confidence=t.confidence * ASKED / total) for t in taught] if total < ASKED else taught
-
-
 def _ranked(found: Mapping[Query, float], refusal: float, candidates: int) -> tuple[Translation, ...]:
     """The likeliest queries; none where it is likelier that the text asks for nothing."""
     if sum(found.values()) <= refusal:
         return ()
     ranked = sorted(found, key=lambda query: (-found[query], str(query)))
     return tuple(Translation(query, min(1.0, found[query])) for query in ranked[:candidates])
+
+
+def voted(found: Mapping[Query, float], alone: float, understood: float) -> tuple[dict[Query, float], float]:
+    """The probabilities of several commands and of one task, when the other network has its say too: as `_outvoted`."""
+    several = sum(found.values())
+    one, other = alone * understood, several * (1.0 - understood)
+    scale = (alone + several) / (one + other or 1.0)
+    return {query: part * (1.0 - understood) * scale for query, part in found.items()}, one * scale
 
 
 def _outvoted(understood: float, other: float) -> bool:

@@ -16,14 +16,17 @@ from models.language.dataset.corpus import load_yaml
 from models.language.errors import VocabularyError
 from models.language.tokens import marked_words
 
-Form = Literal["do", "doing", "done", "state", "it", "subject", "passive", "gerund"]
+Form = Literal["do", "doing", "done", "state", "it", "subject", "passive", "gerund", "echo"]
 """How a clause is said: "go to the zoo", "going to the zoo", "been to the zoo", "you are at the zoo", "the zoo"; or in
-two pieces, a subject and what is done to it: "the ball" (must be) "picked up", "the ball" (needs) "picking up".
+two pieces, a subject and what is done to it: "the ball" (must be) "picked up", "the ball" (needs) "picking up". An
+`echo` says again what was said of it before, and counts for nothing.
 """
 PIECES: tuple[Form, Form] = ("passive", "gerund")
 """The forms of what is done to a subject, which stands before them."""
+FURTHER: tuple[Form, ...] = (*PIECES, "echo")
+"""The forms that come beside the one in which a clause is first said."""
 T = TypeVar("T")
-_HOLE = re.compile(r"\{(\d):(do|doing|done|state|it|subject|passive|gerund)\}")
+_HOLE = re.compile(r"\{(\d):(do|doing|done|state|it|subject|passive|gerund|echo)\}")
 _PASSIVE = re.compile(
     r"(\w+(?: (?:up|out|off|away|down|over))?(?= (?:\{color\} )?\{object\})|\w+(?= \{place\}$))"  # "picked up"
     r" ((?:\{color\} )?\{\w+\})(.*)"  # "the ball", and the rest
@@ -121,7 +124,7 @@ def slot_elements(text: str) -> tuple[str | tuple[str], ...]:
 def _pattern(shape: str, text: str) -> Pattern:
     elements = tuple(_split(text, _HOLE, lambda found: Hole(int(found[1]), found[2])))  # type: ignore[arg-type]
     pattern = Pattern(shape, elements)
-    said = sorted(hole.leaf for hole in pattern.holes if hole.form not in PIECES)
+    said = sorted(hole.leaf for hole in pattern.holes if hole.form not in FURTHER)
     if said != sorted({int(number) for number in re.findall(r"\d", shape)}) or not _whole(pattern):
         detail = f"the pattern {text!r} does not have every clause of {shape} once"
         raise VocabularyError(detail, places=[Place("/patterns", detail)])
@@ -129,9 +132,13 @@ def _pattern(shape: str, text: str) -> Pattern:
 
 
 def _whole(pattern: Pattern) -> bool:
-    """Whether what is done to a subject stands behind each one and nowhere else."""
+    """Whether what is done to a subject stands behind each one and nowhere else, and no echo before what it echoes."""
     open_subjects: set[int] = set()
+    heard: set[int] = set()
     for hole in pattern.holes:
+        if hole.form == "echo" and hole.leaf not in heard:
+            return False
+        heard.add(hole.leaf)
         if hole.form == "subject":
             open_subjects.add(hole.leaf)
         elif hole.form in PIECES:

@@ -72,7 +72,6 @@ NESTINGS = tuple(
         ("and(1, until(avoid(or(2, 3)), 4))", "and(1, until(avoid(2), 3))", 2, "or(1, 2)"),
         ("and(or(1, 2), until(avoid(3), 4))", "and(1, until(avoid(2), 3))", 1, "or(1, 2)"),
         ("and(repeat(1), until(avoid(2), 3))", "and(1, until(avoid(2), 3))", 1, "repeat(1)"),
-        # These have patterns of their own too.
         ("and(1, 2, avoid(3))", "and(1, avoid(2))", 1, "and(1, 2)"),
         ("and(then(1, 2), avoid(3))", "and(1, avoid(2))", 1, "then(1, 2)"),
         ("and(or(1, 2), avoid(3))", "and(1, avoid(2))", 1, "or(1, 2)"),
@@ -94,7 +93,7 @@ NESTINGS = tuple(
         ("and(then(1, or(2, 3)), avoid(4))", "and(then(1, 2), avoid(3))", 2, "or(1, 2)"),
     )
 )
-"""Each shape once; those first that have no patterns of their own."""
+"""Each shape once."""
 
 
 @cache

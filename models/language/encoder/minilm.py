@@ -48,25 +48,29 @@ LOWER = 3
 class Encoder(nn.Module):
     """Vectors for the words of a text, each in its context."""
 
-    def __init__(self, pieces: Pieces, weights: Mapping[str, Tensor]) -> None:
-        """Raises WeightsError for weights that are not MiniLM's."""
+    words: Tensor
+    positions: Tensor
+    kind: Tensor
+
+    def __init__(self, pieces: Pieces, weights: Mapping[str, Tensor], *, packed: bool = True) -> None:
+        """Raises WeightsError for weights that are not MiniLM's. Not `packed`, it can be moved to another device."""
         super().__init__()
         self.pieces = pieces
         try:
-            self.words, self.positions = (
-                weights[f"embeddings.{name}_embeddings.weight"].float() for name in ("word", "position")
-            )
-            self.kind = weights["embeddings.token_type_embeddings.weight"][0].float()
+            for name in ("word", "position"):
+                self.register_buffer(f"{name}s", weights[f"embeddings.{name}_embeddings.weight"].float())
+            self.register_buffer("kind", weights["embeddings.token_type_embeddings.weight"][0].float())
             self.norm = _norm(weights, "embeddings.LayerNorm")
-            self.layers = nn.ModuleList(Layer(weights, f"encoder.layer.{number}") for number in range(LAYERS))
+            self.layers = nn.ModuleList(Layer(weights, f"encoder.layer.{n}", packed=packed) for n in range(LAYERS))
         except (KeyError, IndexError) as error:
             raise WeightsError(f"the weights of MiniLM lack {error}") from None
         self.requires_grad_(False)
         self._lately = lru_cache(maxsize=REMEMBERED)(self._read_now)
+        self._lately_deep = lru_cache(maxsize=REMEMBERED)(self._read_deeply_now)
 
     @classmethod
-    def load(cls, folder: Path | None = None) -> Self:
-        """The model of a folder with `vocab.txt` and `model.safetensors`, or the one that is installed.
+    def load(cls, folder: Path | None = None, *, packed: bool = True) -> Self:
+        """The model of a folder with `vocab.txt` and `model.safetensors`, or the one that is installed; see `__init__`.
 
         Raises:
             WeightsError: a file is missing or damaged.
@@ -79,7 +83,7 @@ class Encoder(nn.Module):
             raise WeightsError(f"MiniLM cannot be read: {error.strerror} ({error.filename})") from None
         except SafetensorError as error:
             raise WeightsError(f"the weights of MiniLM are damaged: {error}") from None
-        return cls(pieces, weights)
+        return cls(pieces, weights, packed=packed)
 
     @property
     def size(self) -> int:
@@ -92,9 +96,14 @@ class Encoder(nn.Module):
         after, _, owner = self._read(texts)
         return word_means(torch.cat([after[number] for number in KEPT], dim=2), owner, max(map(len, texts)))
 
-    @torch.no_grad()
     def read_deeply(self, texts: Sequence[Sequence[str]]) -> Tensor:
         """[B, S, 2 H] the vectors of folded words after LOWER layers, and after all; otherwise as `read`."""
+        if len(texts) <= FEW:
+            return self._lately_deep(tuple(map(tuple, texts)))
+        return self._read_deeply_now(texts)
+
+    @torch.no_grad()
+    def _read_deeply_now(self, texts: Sequence[Sequence[str]]) -> Tensor:
         after, here, owner = self._read(texts)
         mask = None if len(texts) == 1 else here[:, None, None, :]
         states = after[-1]
@@ -126,7 +135,8 @@ class Encoder(nn.Module):
             numbers[row, : len(found)] = torch.tensor(found)
             owner[row, 1 : len(places) + 1] = torch.tensor(places, dtype=torch.int64)
         here = torch.arange(longest) < torch.tensor([len(found) for found, _ in cut])[:, None]  # [B, P]
-        return numbers, here, owner
+        device = self.words.device
+        return numbers.to(device), here.to(device), owner.to(device)
 
     def _states(self, numbers: Tensor, here: Tensor) -> list[Tensor]:
         """[B, P, H] after each of the first LOWER layers, of the pieces with these numbers [B, P], of which those that
@@ -160,13 +170,14 @@ class DeepReader:
 class Layer(nn.Module):
     """A layer of BERT."""
 
-    def __init__(self, weights: Mapping[str, Tensor], name: str) -> None:
+    def __init__(self, weights: Mapping[str, Tensor], name: str, *, packed: bool) -> None:
         super().__init__()
-        self.attend = _linear(weights, *(f"{name}.attention.self.{part}" for part in ("query", "key", "value")))
-        self.attended = _linear(weights, f"{name}.attention.output.dense")
+        attention = (f"{name}.attention.self.{part}" for part in ("query", "key", "value"))
+        self.attend = _linear(weights, *attention, packed=packed)
+        self.attended = _linear(weights, f"{name}.attention.output.dense", packed=packed)
         self.attended_norm = _norm(weights, f"{name}.attention.output.LayerNorm")
-        self.widen = _linear(weights, f"{name}.intermediate.dense")
-        self.narrow = _linear(weights, f"{name}.output.dense")
+        self.widen = _linear(weights, f"{name}.intermediate.dense", packed=packed)
+        self.narrow = _linear(weights, f"{name}.output.dense", packed=packed)
         self.narrow_norm = _norm(weights, f"{name}.output.LayerNorm")
 
     def forward(self, states: Tensor, mask: Tensor | None) -> Tensor:
@@ -186,17 +197,16 @@ def encoder() -> Encoder:
 
 def word_means(states: Tensor, owner: Tensor, width: int) -> Tensor:
     """[B, width, D] the mean of the states [B, P, D] that belong to each word; those of `width` are thrown away."""
-    total = torch.zeros(len(states), width + 1, states.shape[2])
+    total = states.new_zeros(len(states), width + 1, states.shape[2])
     total.scatter_add_(1, owner[:, :, None].expand_as(states), states)
-    count = torch.zeros(len(states), width + 1).scatter_add_(1, owner, torch.ones(owner.shape))
+    count = states.new_zeros(len(states), width + 1).scatter_add_(1, owner, states.new_ones(owner.shape))
     return (total / count.clamp(min=1.0)[:, :, None])[:, :width]
 
 
-def _linear(weights: Mapping[str, Tensor], *names: str) -> PackedLinear:
+def _linear(weights: Mapping[str, Tensor], *names: str, packed: bool) -> PackedLinear:
     """A linear layer, or several side by side."""
-    return PackedLinear(
-        *(torch.cat([weights[f"{name}.{part}"].float() for name in names]) for part in ("weight", "bias"))
-    )
+    weight, bias = (torch.cat([weights[f"{name}.{part}"].float() for name in names]) for part in ("weight", "bias"))
+    return PackedLinear(weight, bias, packed=packed)
 
 
 def _norm(weights: Mapping[str, Tensor], name: str) -> nn.LayerNorm:

@@ -15,13 +15,20 @@ ROWS = 16
 
 
 class PackedLinear(nn.Module):
-    """`weight` [O, I] and `bias` [O] applied to the last dimension of [..., I]."""
+    """`weight` [O, I] and `bias` [O] applied to the last dimension of [..., I]; not `packed` it can leave the processor
+    for another device.
+    """
 
-    def __init__(self, weight: Tensor, bias: Tensor) -> None:
+    _weight: Tensor
+    _bias: Tensor
+
+    def __init__(self, weight: Tensor, bias: Tensor, *, packed: bool = True) -> None:
         super().__init__()
-        self._packs = bool(torch.backends.mkldnn.is_available())  # type: ignore[no-untyped-call]
-        self._weight = torch.ops.mkldnn._reorder_linear_weight(weight.clone(), ROWS) if self._packs else weight
-        self._bias = bias
+        self._packs = packed and bool(torch.backends.mkldnn.is_available())  # type: ignore[no-untyped-call]
+        if self._packs:
+            weight = torch.ops.mkldnn._reorder_linear_weight(weight.clone(), ROWS)
+        self.register_buffer("_weight", weight, persistent=False)
+        self.register_buffer("_bias", bias, persistent=False)
 
     def forward(self, given: Tensor) -> Tensor:
         """[..., O]."""

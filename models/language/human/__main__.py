@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _measure(results: dict[str, Any], options: argparse.Namespace) -> None:
-    """Measure some parts, and write the results after each."""
+    """Measure some parts, and write the results after each, of Lang2LTL after each seed."""
     extent = Extent(seeds=tuple(options.seeds))
     if options.quick:
         quick = replace(extent.plan.settings, epochs=1)
@@ -51,17 +51,19 @@ def _measure(results: dict[str, Any], options: argparse.Namespace) -> None:
     def log(message: str) -> None:
         print(f"{time.monotonic() - began:6.0f} s  {message}", file=sys.stderr, flush=True)
 
+    def keep(part: str, found: dict[str, Any]) -> None:
+        results[part], results["record"] = found, record(extent)
+        options.output.parent.mkdir(parents=True, exist_ok=True)
+        options.output.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+
     for part in [options.only] if options.only else PARTS:
         try:
             if part == "lang2ltl":
-                results[part] = utterances_part(options.data, extent, log)
+                utterances_part(options.data, extent, log, lambda found: keep("lang2ltl", found))
             else:
-                results[part] = commands_part(options.data, part, extent, log)
+                keep(part, commands_part(options.data, part, extent, log))
         except HumanDataError as error:
             sys.exit(str(error))
-        results["record"] = record(extent)
-        options.output.parent.mkdir(parents=True, exist_ok=True)
-        options.output.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
 def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:

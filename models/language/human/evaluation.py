@@ -54,8 +54,10 @@ def commands_part(folder: Path, name: str, extent: Extent, log: Callable[[str], 
     return found
 
 
-def utterances_part(folder: Path, extent: Extent, log: Callable[[str], None]) -> dict[str, Any]:
-    """Both hold-outs of Lang2LTL; a run is a seed, with all parts of it."""
+def utterances_part(
+    folder: Path, extent: Extent, log: Callable[[str], None], keep: Callable[[dict[str, Any]], None]
+) -> dict[str, Any]:
+    """Both hold-outs of Lang2LTL; a run is a seed, with all parts of it. After each, `keep` is given what there is."""
     utterances = read_utterances(folder)
     found: dict[str, Any] = {}
     for setting, holdout in (("utterances", utterance_holdout), ("formulas", formula_holdout)):
@@ -67,8 +69,9 @@ def utterances_part(folder: Path, extent: Extent, log: Callable[[str], None]) ->
                 part = UtteranceSplit(split.training, split.test[: extent.tested])
                 outcomes += measure_utterances(part, seed=100 * seed + 10 * number, plan=extent.plan, log=say)
             runs.append(outcomes)
-        found[setting] = summary_of_utterances(runs)
-        log(f"lang2ltl {setting}: {found[setting]['right']}")
+            found[setting] = summary_of_utterances(runs)
+            keep(found)
+            log(f"lang2ltl {setting} seed {seed}: {100 * found[setting]['right'][-1]:.2f}")
     return found
 
 

@@ -17,8 +17,8 @@ from models.language.spans.network import SpanNet
 from models.language.spans.reader import SpanReader, SpanReading
 from models.language.spans.training import Settings, train
 
-STARTS = ("cq-spans", "composition")
-"""The networks of the translator that serves; they were taught with this repository's own commands only."""
+STARTS = ("cq-spans", "composition-0")
+"""Networks of the translator that serves; they were taught with this repository's own commands only."""
 
 
 @dataclass(frozen=True, slots=True)

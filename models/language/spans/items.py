@@ -110,7 +110,7 @@ def likelihoods(
     """As `likelihood`, by temperature: the texts are read once for all temperatures."""
     config = network.config
     numbers = {word: number for number, word in enumerate(config.words, start=1)}
-    batch = TextBatch.of([item.text for item in items], numbers, encoder, hidden=hidden)
+    batch = TextBatch.of([item.text for item in items], numbers, encoder, hidden=hidden).to(network.device)
     tasks, tags = _answers(items, config, batch.numbers.shape[1])
     scores = network(batch)
     return lambda temperature: log_likelihood(network, scores, batch, tasks, tags, temperature=temperature)

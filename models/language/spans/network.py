@@ -67,7 +67,7 @@ class TextBatch:
 
     numbers: Tensor  # [B, S] int64, words with embeddings; 0 for the others
     vectors: Tensor  # [B, S, D] float32
-    lengths: Tensor  # [B] int64
+    lengths: Tensor  # [B] int64, on the CPU wherever the others are
 
     @classmethod
     def of(
@@ -88,13 +88,17 @@ class TextBatch:
             ids[row, : len(text)] = torch.tensor(known)
         return cls(ids, encoder.read(texts).clone(), torch.tensor([len(text) for text in texts]))
 
+    def to(self, device: torch.device) -> TextBatch:
+        """The same on a device."""
+        return TextBatch(self.numbers.to(device), self.vectors.to(device), self.lengths)
+
 
 @dataclass(frozen=True, slots=True)
 class Scores:
     """What the network says of B texts."""
 
     tasks: Tensor  # [B, K + 1], not normalised
-    emissions: Tensor  # [B, S, K, L], of every tag under every task
+    states: Tensor  # [B, S, H], of which the scores of tags are made: see `SpanNet.emissions`
 
 
 class SpanNet(nn.Module):
@@ -143,20 +147,38 @@ class SpanNet(nn.Module):
                 raise ValueError("a network can read only like one of the same sizes")
             mine.load_state_dict(theirs)
 
+    @property
+    def device(self) -> torch.device:
+        """Where it is."""
+        return self.embedding.weight.device
+
     def forward(self, batch: TextBatch) -> Scores:
-        """Score the tasks and the tags of every word."""
+        """Score the tasks, and read the words."""
         meant = torch.tanh(self.projection(batch.vectors))  # [B, S, projection]
         read = self.dropout(torch.cat([self.embedding(batch.numbers), meant], dim=2))  # [B, S, E]
-        packed = pack_padded_sequence(read, batch.lengths, batch_first=True, enforce_sorted=False)
-        states, _ = pad_packed_sequence(self.encoder(packed)[0], batch_first=True)  # [B, S, H]
-        here = (torch.arange(states.shape[1]) < batch.lengths[:, None])[:, :, None]  # [B, S, 1]
+        states = self._encoded(read, batch.lengths)  # [B, S, H]
+        lengths = batch.lengths.to(self.device)[:, None]  # [B, 1]
+        here = (torch.arange(states.shape[1], device=self.device) < lengths)[:, :, None]  # [B, S, 1]
         highest = states.masked_fill(~here, -1.0).amax(dim=1)  # [B, H]; a GRU's states lie between -1 and 1
-        mean = (states * here).sum(dim=1) / batch.lengths[:, None]  # [B, H]
+        mean = (states * here).sum(dim=1) / lengths  # [B, H]
         states = self.dropout(states)
-        return Scores(
-            tasks=self.task(self.dropout(torch.cat([highest, mean], dim=1))),
-            emissions=self.tag(states).unflatten(2, (len(self.config.tasks), self.config.tags)),
-        )
+        return Scores(self.task(self.dropout(torch.cat([highest, mean], dim=1))), states)
+
+    def _encoded(self, read: Tensor, lengths: Tensor) -> Tensor:
+        """[B, S, H] the states of texts [B, S, E]; one text is padded nowhere, and needs no packing."""
+        if len(lengths) == 1:
+            alone: Tensor = self.encoder(read)[0]
+            return alone
+        packed = pack_padded_sequence(read, lengths, batch_first=True, enforce_sorted=False)
+        states, _ = pad_packed_sequence(self.encoder(packed)[0], batch_first=True)
+        return states
+
+    def emissions(self, states: Tensor, tasks: Sequence[int]) -> Tensor:
+        """[S, N, L] the scores of every tag of a text's words, whose states are [S, H], under N of the tasks."""
+        count, tags = len(self.config.tasks), self.config.tags
+        weight, bias = self.tag.weight.view(count, tags, -1)[tasks], self.tag.bias.view(count, tags)[tasks]
+        found = nn.functional.linear(states, weight.flatten(0, 1), bias.flatten())  # [S, N * L]
+        return found.view(len(states), len(tasks), tags)
 
 
 def log_likelihood(
@@ -168,16 +190,19 @@ def log_likelihood(
         tasks: [B] int64, K where no task fits.
         tags: [B, S] int64; ignored where no task fits.
         temperature: what all scores are divided by.
+
+    Wherever the network is, answers and results are on the CPU, where the many small steps of the field are faster.
     """
-    task = (scores.tasks / temperature).log_softmax(dim=1).gather(1, tasks[:, None]).squeeze(1)  # [B]
+    task = (scores.tasks.cpu() / temperature).log_softmax(dim=1).gather(1, tasks[:, None]).squeeze(1)  # [B]
     asked = tasks < network.config.no_task  # [B]
     if not bool(asked.any()):
         return task
-    kinds, lengths = tasks[asked], batch.lengths[asked]  # [N], [N]
-    places = kinds[:, None, None, None].expand(-1, scores.emissions.shape[1], 1, scores.emissions.shape[3])
-    emissions = scores.emissions[asked].gather(2, places).squeeze(2) / temperature  # [N, S, L]
-    transitions = (network.transition / temperature + network.allowed)[kinds]  # [N, L, L]
-    start = network.allowed_start[kinds]  # [N, L]
+    rows, lengths = asked.nonzero().squeeze(1), batch.lengths[asked]  # [N], [N]
+    chosen, kinds = rows.to(network.device), tasks[asked].to(network.device)  # [N], [N]
+    every = network.tag(scores.states[chosen]).unflatten(2, (len(network.config.tasks), -1))  # [N, S, K, L]
+    emissions = every[torch.arange(len(kinds), device=network.device), :, kinds].cpu() / temperature  # [N, S, L]
+    transitions = (network.transition / temperature + network.allowed)[kinds].cpu()  # [N, L, L]
+    start = network.allowed_start[kinds].cpu()  # [N, L]
     said = score(emissions, transitions, start, lengths, tags[asked])  # [N]
     total = log_partition(emissions, transitions, start, lengths)  # [N]
-    return task.index_add(0, asked.nonzero().squeeze(1), said - total)
+    return task.index_add(0, rows, said - total)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Self
 
 import torch
+from torch import Tensor
 
 from models.language.encoder import WordReader, encoder
 from models.language.spans.decoding import TagScores, best_sequences, log_totals
@@ -70,21 +71,21 @@ class SpanReader:
         The probability of a reading is that of its class times that of its tag sequence.
         """
         scores = self.model.network(TextBatch.of(texts, self._numbers, self.encoder))
-        every = scores.emissions.double().numpy() / self.model.temperature  # [B, S, K, L]
         tasks = (scores.tasks / self.model.temperature).softmax(dim=1).tolist()  # [B][K + 1]
         return [
-            (self._readings(text, emissions[: len(text)], likely), likely[-1])
-            for text, emissions, likely in zip(texts, every, tasks, strict=True)
+            (self._readings(text, states[: len(text)], likely), likely[-1])
+            for text, states, likely in zip(texts, scores.states, tasks, strict=True)
         ]
 
-    def _readings(self, spoken: Sequence[str], emissions: TagScores, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
-        """The readings of one text. `emissions` is [S, K, L]."""
+    def _readings(self, spoken: Sequence[str], states: Tensor, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
+        """The readings of one text. `states` is [S, H]."""
         likely = [task for task, probability in enumerate(tasks[:-1]) if probability >= LEAST_TASK]
         if not likely:
             return ()
         # The tags of arguments that no class has are forbidden: leave them out.
         used = begins(max(self.model.network.config.tasks[task][1] for task in likely))
-        said = emissions.transpose(1, 0, 2)[likely, :, :used]  # [N, S, L]
+        emissions = self.model.network.emissions(states, likely).transpose(0, 1)  # [N, S, L]
+        said = emissions[:, :, :used].double().numpy() / self.model.temperature
         transitions, start = self._transitions[likely, :used, :used], self._start[likely, :used]
         totals = log_totals(said, transitions, start).tolist()
         least = [total + math.log(LEAST / tasks[task]) for task, total in zip(likely, totals, strict=True)]

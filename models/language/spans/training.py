@@ -64,12 +64,13 @@ def train(
     log: Callable[[Epoch], None] | None = None,
     words: WordReader | None = None,
     start: SpanNet | None = None,
+    device: str = "cpu",
 ) -> SpanModel:
     """Fit a network to what a course teaches.
 
     One thread is fastest. The same seed gives the same model on the same kind of machine. `log` is called after every
     epoch. Without `words`, words are read with the encoder that is installed. With `start`, a network of the same
-    sizes, reading is not learned from nothing: see `SpanNet.reading_like`.
+    sizes, reading is not learned from nothing: see `SpanNet.reading_like`. It is fitted on `device`, and comes back.
 
     Raises:
         TrainingError: no epoch is asked for.
@@ -83,9 +84,10 @@ def train(
         network = _network(course, words, settings)
         if start is not None:
             network.reading_like(start)
+        network.to(device)
         checks = _part(course.checks(random.Random(f"checks/{seed}")), settings, generator)
         _fit(network, course, words, settings, generator, checks, log)
-    return _calibrated(network.eval(), words, checks, {"seed": seed, **asdict(settings)})
+    return _calibrated(network.cpu().eval(), words, checks, {"seed": seed, **asdict(settings)})
 
 
 def _network(course: Course, words: WordReader, settings: Settings) -> SpanNet:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import pytest
 
 from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Translation, Utterance
-from models.queries import Composition, ContextualQuery, parse_task
+from models.language.composition.translator import voted
+from models.queries import Composition, ContextualQuery, parse_query, parse_task
 
 
 @pytest.fixture(scope="module")
@@ -18,6 +19,14 @@ def single() -> SpanTranslator:
 @pytest.fixture(scope="module")
 def translator(single: SpanTranslator) -> ComposedTranslator:
     return ComposedTranslator.load(single)
+
+
+def test_the_odds_of_both_kinds_of_network_are_multiplied() -> None:
+    """0.3 to 0.6 against one task, times 95 to 5 for it, are 0.285 to 0.03; what is left out stays left out."""
+    several = parse_query("and(navigate_one(zoo), navigate_one(bank))")
+    found, alone = voted({several: 0.6}, 0.3, 0.95)
+    assert alone == pytest.approx(0.9 * 0.285 / 0.315)
+    assert found == {several: pytest.approx(0.9 * 0.03 / 0.315)}
 
 
 def best(translator: ComposedTranslator, text: str) -> str:
@@ -40,6 +49,7 @@ def best(translator: ComposedTranslator, text: str) -> str:
         ("get the mug, then go to the attic", "then(pickup(mug), navigate_one(attic))"),
         ("the mug must be picked up before you go to the attic", "then(pickup(mug), navigate_one(attic))"),
         ("go to shelf b and never go to shelf a", "and(navigate_one(shelf b), avoid(navigate_one(shelf a)))"),
+        ("go to bay 3, then to gate 12a", "navigate_two(bay 3, gate 12a)"),
         ("my bread is all gone, so go to the bakery", "navigate_one(bakery)"),
     ],
 )

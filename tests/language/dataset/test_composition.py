@@ -7,9 +7,11 @@ import re
 
 import pytest
 
+from models.language.composition import lessons
 from models.language.composition.lessons import SINGLE, CompositionLessons
 from models.language.composition.shapes import read_shape
-from models.language.dataset.composition import PIECES, leaves, patterns, slot_elements
+from models.language.dataset.composition import FURTHER, PIECES, _pattern, leaves, patterns, slot_elements
+from models.language.errors import VocabularyError
 from models.language.spans.tags import MAX_ARGUMENTS
 
 
@@ -27,7 +29,7 @@ def test_patterns_have_every_clause_of_their_shape_once() -> None:
         assert len(numbers) <= MAX_ARGUMENTS
         assert len({pattern.elements for pattern in group}) == len(group)
         for pattern in group:
-            whole = [hole.leaf for hole in pattern.holes if hole.form not in PIECES]
+            whole = [hole.leaf for hole in pattern.holes if hole.form not in FURTHER]
             pieces = [hole.leaf for hole in pattern.holes if hole.form in PIECES]
             assert sorted(whole) == sorted(numbers)
             assert sorted(pieces) == sorted(hole.leaf for hole in pattern.holes if hole.form == "subject")
@@ -73,6 +75,25 @@ def test_texts_have_their_clauses_where_the_mentions_say() -> None:
                     assert 0 <= begin < end <= len(item.text)
                     assert taken.isdisjoint(range(begin, end))
                     taken.update(range(begin, end))
+
+
+def test_an_echo_says_again_what_was_said_and_is_no_part_of_the_clause(monkeypatch: pytest.MonkeyPatch) -> None:
+    pattern = _pattern("repeat(and(1, 2))", "{1:it} {2:it} {1:echo} {2:echo}")
+    monkeypatch.setattr(lessons, "patterns", lambda: {pattern.shape: (pattern,)})
+    monkeypatch.setattr(lessons, "nestings", dict)
+    monkeypatch.setattr(CompositionLessons, "_beside", lambda *_: [])
+    monkeypatch.setattr(lessons, "FRAMED", 0.0)
+    monkeypatch.setattr(lessons, "REASON", 0.0)
+    item = CompositionLessons.load(seed=0).composed(pattern.shape, random.Random(1))
+    half = len(item.text) // 2
+    assert item.text[:half] == item.text[half:]
+    assert [spans[-1][1] for spans in item.mentions][-1] == half
+
+
+@pytest.mark.parametrize("text", ["{1:echo}, {1:it}, {2:it}", "{1:it}, {2:echo}"])
+def test_an_echo_of_nothing_is_refused(text: str) -> None:
+    with pytest.raises(VocabularyError):
+        _pattern("and(1, 2)", text)
 
 
 def test_nothing_held_out_is_taught() -> None:

@@ -65,7 +65,7 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
     scores = network(TextBatch.of([text], numbers, encoder()))
     for task, (name, arity) in enumerate(network.config.tasks):
         field = (
-            scores.emissions[0, :, task],
+            network.emissions(scores.states[0], [task])[:, 0],
             network.transition[task] + network.allowed[task],
             network.allowed_start[task],
         )
