@@ -28,13 +28,15 @@ from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
 from models.language.spans.translator import SpanTranslator, understood
 from models.language.tokens import is_mark, marked_words
-from models.language.translation import Translation
+from models.language.translation import NEGATIONS, Translation
 from models.queries import Query, QuerySyntaxError
 
 NAMES = ("composition-0", "composition-1")
 """The networks that read how clauses belong together."""
 SEQUENCE = "then("
 """How the shapes of sequences begin."""
+AVOID = "avoid("
+"""What stands in shapes that forbid something."""
 SURE = 0.986
 """Probability of being one task from which the other network is not asked at all."""
 LEAST = 0.02
@@ -95,14 +97,17 @@ class ComposedTranslator:
             return ()
         understand = SpokenClauses(self.single, self.taught, self.nearby)
         whole = understand.alone(text)
-        if understood(whole) >= SURE:
+        negated = not NEGATIONS.isdisjoint(spoken)
+        if understood(whole) >= SURE and not negated:
             return whole[:candidates]
         if understood(whole) >= CERTAIN:
             spoken = unmarked(spoken)  # how one task is punctuated changes nothing
         elif understood(whole) >= ALONE:
             spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
-        whole = _apart(whole, shapes, spoken, understand)
+        # What a text forbids is never done, however much the rest of it asks for that.
+        forbidden = negated and _part(shapes, lambda shape: AVOID in shape) >= ALONE
+        whole = () if forbidden else _apart(whole, shapes, spoken, understand)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()

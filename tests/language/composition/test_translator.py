@@ -50,6 +50,9 @@ def best(translator: ComposedTranslator, text: str) -> str:
         ("the mug must be picked up before you go to the attic", "then(pickup(mug), navigate_one(attic))"),
         ("go to shelf b and never go to shelf a", "and(navigate_one(shelf b), avoid(navigate_one(shelf a)))"),
         ("go to bay 3, then to gate 12a", "navigate_two(bay 3, gate 12a)"),
+        ("don't pick up the sphere", "avoid(pickup(sphere))"),
+        ("don't move to the crate", "avoid(move_to(crate))"),
+        ("never pick up the red ball", "avoid(pickup_colored(ball, red))"),
         ("my bread is all gone, so go to the bakery", "navigate_one(bakery)"),
     ],
 )
