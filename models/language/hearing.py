@@ -7,7 +7,7 @@ on. The last two weigh against each other: each is believed as far as the other 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
@@ -162,7 +162,7 @@ class Hearing:
             ):
                 heard = translator.several(text, candidates=wanted, asked=True)
             near, heard = (
-                tuple(parted(translation, heard) for translation in near),
+                tuple(parted(translation, heard, lessons.own) for translation in near),
                 tuple(lessons.doubted(translation, near) for translation in heard),
             )
             heard = weighed(near, heard)
@@ -201,16 +201,17 @@ def _senseless(readings: Sequence[Reading]) -> bool:
     return all(reading.weight <= SENSELESS for reading in readings)
 
 
-def parted(near: Translation, heard: Sequence[Translation]) -> Translation:
+def parted(near: Translation, heard: Sequence[Translation], own: Collection[str] = ()) -> Translation:
     """A task that is probably a clause of what was heard is hardly all that the text says, the less where it is
-    forbidden.
+    forbidden; nor is one of the same things as a clause that is the networks' `own`.
     """
     said = {task.task for _, task in near.query.tasks}
+    things = {task.arguments for _, task in near.query.tasks}
     around = sum(
         translation.confidence
         for translation in heard
         if isinstance(translation.query, Composition)
-        and not said.isdisjoint(task.task for _, task in translation.query.tasks)
+        and any(t.task in said or (t.task in own and t.arguments in things) for _, t in translation.query.tasks)
     )
     return replace(near, confidence=DOUBTED * near.confidence) if around >= AROUND else near
 

@@ -82,6 +82,13 @@ def test_a_composition_around_one_taught_task_may_be_another_task_in_other_words
     assert parted(Translation(B, 0.8), (heard,)) == Translation(B, 0.8)
 
 
+def test_a_task_is_doubted_that_says_what_the_networks_heard_forbidden() -> None:
+    """ "Don't pick up the sphere" does not ask for a taught task that fetches it."""
+    own, other = ContextualQuery("own", A.arguments), ContextualQuery("own", ("y", "z"))
+    for heard, expected in ((own, DOUBTED * 0.8), (other, 0.8)):
+        assert parted(Translation(A, 0.8), (Translation(avoid(heard), 0.6),), {"own"}).confidence == expected
+
+
 def test_what_the_networks_know_is_not_doubted(lessons: Lessons) -> None:
     own = ContextualQuery("own", ("x",))
     two = Composition(Operator.AND, (A, avoid(B)))

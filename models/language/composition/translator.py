@@ -106,8 +106,13 @@ class ComposedTranslator:
             spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
         # What a text forbids is never done, however much the rest of it asks for that.
-        forbidden = negated and _part(shapes, lambda shape: AVOID in shape) >= ALONE
-        whole = () if forbidden else _apart(whole, shapes, spoken, understand)
+        if negated and _part(shapes, _forbids) >= ALONE:
+            shapes = [
+                replace(each, share=each.share / _part(shapes, _forbids)) for each in shapes if _forbids(each.shape)
+            ]
+            whole = ()
+        else:
+            whole = _apart(whole, shapes, spoken, understand)
         if understood(whole) >= ALONE:
             if _outvoted(understood(whole), refusal):
                 return ()
@@ -243,6 +248,10 @@ def _outvoted(understood: float, other: float) -> bool:
     confidence: the two saw different texts in training, so their odds are multiplied.
     """
     return understood * (1.0 - other) < (1.0 - understood) * other
+
+
+def _forbids(shape: str) -> bool:
+    return AVOID in shape
 
 
 def _part(shapes: Sequence[Arrangement], fits: Callable[[str], bool]) -> float:

@@ -171,7 +171,7 @@ def test_a_text_of_a_batch_is_named(client: httpx.Client) -> None:
 )
 def test_commands_are_put_together(client: httpx.Client, text: str, ltl: str) -> None:
     answer = client.post("/translate", json={"text": text, "environment": "toys", "candidates": 5}).json()
-    assert (answer["outcome"], answer["ltl"]) == ("translated", ltl)
+    assert (answer["outcome"], answer["ltl"]) == ("translated", ltl), answer
     assert answer["contextual_query"]["operator"] is not None
     grounded = client.post("/ground", json={"query": answer["contextual_query"], "environment": "toys"}).json()
     assert (grounded["ltl"], grounded["bindings"]) == (ltl, answer["bindings"])
