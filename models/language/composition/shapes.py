@@ -79,6 +79,11 @@ def has_several(shape: str) -> bool:
     return shape != SINGLE
 
 
+def forbids(shape: str) -> bool:
+    """Whether it says of a clause that it must not be."""
+    return "avoid(" in shape
+
+
 def is_plain(shape: str) -> bool:
     """Whether a shape is one clause, or clauses one after the other and nothing else."""
     return not has_several(shape) or _PLAIN_SEQUENCE.fullmatch(shape) is not None

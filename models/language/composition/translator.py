@@ -15,6 +15,7 @@ from models.language.composition.marks import MarkedReader
 from models.language.composition.shapes import (
     SINGLE,
     filled,
+    forbids,
     has_several,
     in_one_clause,
     is_listed,
@@ -35,8 +36,6 @@ NAMES = ("composition-0", "composition-1")
 """The networks that read how clauses belong together."""
 SEQUENCE = "then("
 """How the shapes of sequences begin."""
-AVOID = "avoid("
-"""What stands in shapes that forbid something."""
 SURE = 0.986
 """Probability of being one task from which the other network is not asked at all."""
 LEAST = 0.02
@@ -105,11 +104,9 @@ class ComposedTranslator:
         elif understood(whole) >= ALONE:
             spoken = unended(spoken)  # nor does the end of what may be one
         shapes, refusal = self._shapes(spoken)
-        # What a text forbids is never done, however much the rest of it asks for that.
-        if negated and _part(shapes, _forbids) >= ALONE:
-            shapes = [
-                replace(each, share=each.share / _part(shapes, _forbids)) for each in shapes if _forbids(each.shape)
-            ]
+        forbidden = _part(shapes, forbids) if negated else 0.0
+        if forbidden >= ALONE:  # what a text forbids is never done, however much the rest of it asks for that
+            shapes = [replace(each, share=each.share / forbidden) for each in shapes if forbids(each.shape)]
             whole = ()
         else:
             whole = _apart(whole, shapes, spoken, understand)
@@ -248,10 +245,6 @@ def _outvoted(understood: float, other: float) -> bool:
     confidence: the two saw different texts in training, so their odds are multiplied.
     """
     return understood * (1.0 - other) < (1.0 - understood) * other
-
-
-def _forbids(shape: str) -> bool:
-    return AVOID in shape
 
 
 def _part(shapes: Sequence[Arrangement], fits: Callable[[str], bool]) -> float:
