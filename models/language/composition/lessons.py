@@ -14,7 +14,6 @@ from functools import cache
 from itertools import chain
 from typing import Literal, Self
 
-from models.language.composition.labels import BARE, Told
 from models.language.composition.shapes import ONE_CLAUSE, SINGLE, read_shape
 from models.language.dataset import frames, no_task
 from models.language.dataset.asides import asides, drawn, remark
@@ -54,6 +53,8 @@ REASON, ASIDE, PURPOSE = 0.07, 0.08, 0.06
 """Parts of the texts with a reason in front, and behind; of the clauses with something said beside them; and of the
 places that are visited for something.
 """
+LABELLED, BARE = 0.08, 0.8
+"""Part of the names that end in a letter or number, "shelf b", "gate 12", and part of these without an article."""
 REMARKS = 150
 """Reasons without a command in an epoch."""
 
@@ -112,7 +113,7 @@ class CompositionLessons:
             alone = Item(item.text, SINGLE, (((before, len(item.text) - after),),), item.frame)
             return self._reasoned(alone, generator)
         leaf = generator.choice(leaves())
-        text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, Told.drawn(generator))
+        text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, {})
         item = Item(tuple(text), SINGLE, (((0, len(text)),),))
         return self._reasoned(self._framed(item, "do", generator), generator)
 
@@ -125,7 +126,7 @@ class CompositionLessons:
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
         mentions: list[tuple[Span, ...]] = [()] * len({hole.leaf for hole in pattern.holes})
-        told = Told.drawn(generator)
+        earlier: dict[str, bool] = {}
         heard: dict[int, list[str]] = {}
         for element in pattern.elements:
             if isinstance(element, str):
@@ -135,7 +136,7 @@ class CompositionLessons:
             if element.form == "echo":
                 text += heard[element.leaf]
                 continue
-            said = self._said(chosen[element.leaf], element.form, generator, told)
+            said = self._said(chosen[element.leaf], element.form, generator, earlier)
             if text and text[-1] == "no" and said[0] in DETERMINERS:
                 said = said[1:]
             mentions[element.leaf - 1] += ((len(text), len(text) + len(said)),)
@@ -147,12 +148,12 @@ class CompositionLessons:
         framed = self._framed(item, first.form if isinstance(first, Hole) else "it", generator)
         return self._reasoned(framed, generator)
 
-    def _said(self, leaf: Leaf, form: Form, generator: random.Random, told: Told) -> list[str]:
+    def _said(self, leaf: Leaf, form: Form, generator: random.Random, earlier: dict[str, bool]) -> list[str]:
         """The words of a clause; what was named before may be a pronoun."""
         if form == "it":
             slot = leaf.target or leaf.slots[-1]
-            told.named.add(slot)
-            return self._phrase(slot, generator, told)
+            earlier[slot] = True
+            return self._phrase(slot, generator)
         text = leaf.forms.get(form) or leaf.pieces.get(form) or leaf.do
         said: list[str] = []
         previous = ""
@@ -162,14 +163,14 @@ class CompositionLessons:
                 continue
             (slot,) = element
             may_be_pronoun = previous != "color" and (form, slot) != ("subject", "place")
-            if may_be_pronoun and slot in told.named and slot in _REPEATED and generator.random() < PRONOUN:
+            if may_be_pronoun and earlier.get(slot) and slot in _REPEATED and generator.random() < PRONOUN:
                 there = slot == "place" and said and said[-1] in ("to", "at", "in")
                 if there:
                     said.pop()
                 said.append("there" if slot == "place" else "it")
             else:
-                said += self._phrase(slot, generator, told, bare=previous == "color")
-            told.named.add(slot)
+                said += self._phrase(slot, generator, bare=previous == "color")
+            earlier[slot] = True
             previous = slot
         return said
 
@@ -218,13 +219,11 @@ class CompositionLessons:
                 text.append(word)
         return Item(tuple(text))
 
-    def _phrase(
-        self, slot: str, generator: random.Random, told: Told | None = None, *, bare: bool = False
-    ) -> list[str]:
+    def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
         kind = generator.choice(PLACE_KINDS) if slot == "place" else CLAUSE_SLOTS[slot]
         name, article = self.single.names.draw(kind, generator), not bare
-        if told is not None and told.labels(slot, generator):
-            name, article = told.labelled(name[-1], slot, generator), article and generator.random() > BARE
+        if slot != "color" and generator.random() < LABELLED:
+            name, article = (*name[-1:], _label(generator)), article and generator.random() > BARE
         elif article and slot != "color" and generator.random() < REFERRED:
             name, article = self.single.refer(name, kind, False, generator)
         determiner = generator.choice(DETERMINERS) if article else ""
@@ -258,6 +257,12 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
 def _said_as(form: Form) -> Sequence[Leaf]:
     """The clauses that have a form."""
     return [leaf for leaf in leaves() if form == "it" or form in leaf.forms or form in leaf.pieces]
+
+
+def _label(generator: random.Random) -> str:
+    """What tells one of several of a kind: a letter, a number, or both."""
+    letter, number = generator.choice("aaabbbccddefghkx"), str(generator.choice((generator.randint(1, 9), 10, 12, 42)))
+    return generator.choice((letter, letter, number, number, letter + number, number + letter))
 
 
 @cache
