@@ -14,6 +14,7 @@ from urllib.parse import quote
 
 from pydantic import ValidationError
 
+from service.binding import listen
 from service.errors import CannotStartError
 from service.exchange import add_commands, export, import_environment, read_environment
 from service.keys_command import add_keys_command, keys
@@ -136,13 +137,14 @@ def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 
 def _serve(settings: Settings, options: argparse.Namespace) -> int:
-    from service.forkserver import launch
-
-    launch()  # before this process loads what it needs itself, so that both load at once
-    from service.server import serve
-
     port = settings.port if options.port is None else options.port
-    serve(settings, host=options.host or settings.host, port=port)
+    with listen(settings, options.host or settings.host, port) as listener:  # first: what is refused loads nothing
+        from service.forkserver import launch
+
+        launch()  # before this process loads what it needs itself, so that both load at once
+        from service.server import serve
+
+        serve(settings, listener)
     return 0
 
 

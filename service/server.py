@@ -12,7 +12,6 @@ import uvicorn
 from sqlalchemy.engine import make_url
 
 from service.app import create_app
-from service.binding import listen
 from service.http.protocol import protocol_of
 from service.logs import configure
 from service.settings import Settings
@@ -44,35 +43,33 @@ class _Server(uvicorn.Server):
         await super().shutdown(sockets)
 
 
-def serve(settings: Settings, *, host: str, port: int) -> None:
-    """Serve until interrupted; raises `CannotStartError`."""
+def serve(settings: Settings, listener: socket.socket) -> None:
+    """Serve on a socket that listens, until interrupted; raises `CannotStartError`."""
     configure(settings.log_format, settings.log_level)
-    listener = listen(settings, host, port)
     os.environ.setdefault("OTEL_SERVICE_NAME", "cqltl")
-    with listener:
-        shown = f"[{host}]" if ":" in host else host
-        said = _TRY.format(
-            url=f"http://{shown}:{listener.getsockname()[1]}",
-            store=make_url(settings.url).render_as_string(hide_password=True),
-        )
-        app = create_app(settings)
-        config = uvicorn.Config(
-            app,
-            log_config=None,
-            access_log=False,
-            timeout_graceful_shutdown=10,
-            timeout_keep_alive=settings.keep_alive_s,
-            h11_max_incomplete_event_size=settings.max_head_bytes,
-            http=protocol_of(settings),
-            proxy_headers=bool(settings.trusted_proxies),
-            forwarded_allow_ips=settings.trusted_proxies,
-            ws="none",
-            server_header=False,
-        )
-        logging.getLogger("uvicorn.error").addFilter(lambda _: app.state.cannot_start is None)  # it is said once
-        try:
-            _Server(config, said, app.state.closing).run(sockets=[listener])
-        except SystemExit:  # uvicorn's end where the app does not start
-            if app.state.cannot_start is not None:
-                raise app.state.cannot_start from None
-            raise
+    host, port = listener.getsockname()[:2]
+    said = _TRY.format(
+        url=f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}",
+        store=make_url(settings.url).render_as_string(hide_password=True),
+    )
+    app = create_app(settings)
+    config = uvicorn.Config(
+        app,
+        log_config=None,
+        access_log=False,
+        timeout_graceful_shutdown=10,
+        timeout_keep_alive=settings.keep_alive_s,
+        h11_max_incomplete_event_size=settings.max_head_bytes,
+        http=protocol_of(settings),
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=settings.trusted_proxies,
+        ws="none",
+        server_header=False,
+    )
+    logging.getLogger("uvicorn.error").addFilter(lambda _: app.state.cannot_start is None)  # it is said once
+    try:
+        _Server(config, said, app.state.closing).run(sockets=[listener])
+    except SystemExit:  # uvicorn's end where the app does not start
+        if app.state.cannot_start is not None:
+            raise app.state.cannot_start from None
+        raise

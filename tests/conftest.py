@@ -6,21 +6,28 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
-
-TESTS = Path(__file__).parent
+from xdist.scheduler import LoadScopeScheduling
 
 settings.register_profile("fixed", derandomize=True, deadline=None)  # machines are noisy
 settings.register_profile("fresh", print_blob=True, deadline=None)
 settings.load_profile("fresh" if os.environ.get("CQLTL_FUZZ") else "fixed")
 
 
-@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+class _Together(LoadScopeScheduling):
     """The tests of a file stay together, and so do those of the service, which share a server in this order."""
-    for item in items:
-        place = item.path.relative_to(TESTS)
-        shared = place.parts[0] == "service" and place.parts[1] not in ("jobs", "store", "worker")
-        item.add_marker(pytest.mark.xdist_group("service" if shared else str(place)))
+
+    def _split_scope(self, nodeid: str) -> str:
+        file = nodeid.partition("::")[0]
+        parts = Path(file).parts[1:]
+        shared = parts[0] == "service" and parts[1] not in ("jobs", "store", "worker")
+        return "service" if shared else file
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
+    """Groups by `xdist_group`, which would be the usual way, are lost on pytest 9.2."""
+    return _Together(config, log)

@@ -2,14 +2,15 @@
 
     python -m models.language.train                  the default translator's networks, and the paper's systems
     python -m models.language.train default --seed 1 --output FOLDER
-    python -m models.language.train composition                          two networks, one after the other
+    python -m models.language.train composition                          two networks
     python -m models.language.train composition --member 1 --device cuda   one of them, on a GPU
     python -m models.language.train matching
     python -m models.language.train paper --domain navigation --hide 0.25 --output FOLDER
 
 Writes, into the output folder, for each model `NAME.safetensors` (the tensors) and `NAME.json` (vocabulary, sizes,
-hyper-parameters), and the training curves. One thread; the same seed gives the same weights on the same kind of
-machine. Networks that are trained on another device differ from those of the CPU as those of another seed do.
+hyper-parameters), and the training curves. Several networks are trained side by side, in as many processes as there are
+processors, each with one thread; the same seed gives the same weights on the same kind of machine. Networks that are
+trained on another device differ from those of the CPU as those of another seed do.
 `python -m models.language.evaluate` measures what was made.
 """
 
@@ -17,9 +18,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import multiprocessing
+import os
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import torch
@@ -44,30 +49,47 @@ REFUSED = 2_000
 """Texts without a task that the matching network is shown."""
 HELD_OUT = 6
 """Every so many-th task class is not fitted to: the matching network is calibrated on these."""
+THREADS = 1
+"""The networks are small: a second thread makes every step slower."""
 SHIPPED = Path(__file__).parent / "weights"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Read the command line and train."""
     options = _read_options(arguments)
-    torch.set_num_threads(1)  # the networks are small: a second thread makes every step slower
-    if options.what in ("default", "all"):
-        chosen = _chosen(spans.Settings(), options)
-        train_default(chosen, seed=options.seed, folder=options.output, device=options.device)
-    if options.what in ("composition", "all"):
+    parts = _parts(options)
+    if options.jobs < 2 or len(parts) == 1:
+        for part in parts:
+            part()
+        return
+    context = multiprocessing.get_context("spawn")  # a forked process would share torch's threads
+    with ProcessPoolExecutor(options.jobs, context, max_tasks_per_child=1) as pool:
+        for trained in [pool.submit(part) for part in parts]:
+            trained.result()
+
+
+def _parts(options: argparse.Namespace) -> Sequence[Callable[[], None]]:
+    """What is asked for, network by network; those that take longest come first."""
+    asked = {"composition", "default", "matching", "paper"} if options.what == "all" else {options.what}
+    common = {"seed": options.seed, "folder": options.output}
+    parts: list[Callable[[], None]] = []
+    if "composition" in asked:
         for member in range(len(NAMES)) if options.member is None else (options.member,):
             chosen = _chosen(SETTINGS, options)
-            train_composition(chosen, member=member, seed=options.seed, folder=options.output, device=options.device)
-    if options.what in ("matching", "all"):
-        train_matching(matching.Settings(), seed=options.seed, folder=options.output)
-    if options.what in ("paper", "all"):
-        domains = tuple(Domain) if options.domain == "both" else (Domain(options.domain),)
-        settings = _copynet_settings(options)
-        copynet.train_paper(domains, settings, seed=options.seed, folder=options.output, log=print)
+            parts.append(partial(train_composition, chosen, member=member, device=options.device, **common))
+    if "default" in asked:
+        parts.append(partial(train_default, _chosen(spans.Settings(), options), device=options.device, **common))
+    if "paper" in asked:
+        for domain in Domain if options.domain == "both" else (Domain(options.domain),):
+            parts.append(partial(train_paper, domain, _copynet_settings(options), **common))
+    if "matching" in asked:
+        parts.append(partial(train_matching, matching.Settings(), **common))
+    return parts
 
 
 def train_default(settings: spans.Settings, *, seed: int, folder: Path, device: str = "cpu") -> None:
     """Train the default translator's network of single tasks, and write it with its curve."""
+    torch.set_num_threads(THREADS)
     lessons, words = Lessons.load(seed=seed), _encoder(device)
     _train(lessons, settings, seed=seed, folder=folder, name=DEFAULT_NAME, words=words, device=device)
 
@@ -76,6 +98,7 @@ def train_composition(settings: spans.Settings, *, member: int, seed: int, folde
     """Train one of the networks that find the clauses of a command, and write it with its curve; each member has a seed
     of its own, counted from `seed`.
     """
+    torch.set_num_threads(THREADS)
     own, words = seed + member, MarkedReader.load(_encoder(device))
     lessons = CompositionLessons.load(seed=own)
     _train(lessons, settings, seed=own, folder=folder, name=NAMES[member], words=words, device=device)
@@ -83,6 +106,7 @@ def train_composition(settings: spans.Settings, *, member: int, seed: int, folde
 
 def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
     """Train the network that compares commands with what was taught, and write it with its curve."""
+    torch.set_num_threads(THREADS)
     generator = random.Random(seed)
     classes = [*task_classes(), *paper_classes(generator)]
     lessons = [lesson(task, generator) for task in classes]
@@ -99,7 +123,7 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
 
     def log(step: dict[str, float]) -> None:
         curve.append(step)
-        print("matching", " ".join(f"{key} {value}" for key, value in step.items()))
+        print("matching", " ".join(f"{key} {value}" for key, value in step.items()), flush=True)
 
     network = matching.fit(course, settings, seed=seed, log=log)
     model = calibrated(network, course, held_out, unseen, seed=seed)
@@ -107,6 +131,12 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
     save_model_of_matching(replace(model, training=made), folder)
     (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")
     print(f"matching: steepness {model.steepness}, threshold {model.threshold}, lesser {model.lesser}")
+
+
+def train_paper(domain: Domain, settings: copynet.Settings, *, seed: int, folder: Path) -> None:
+    """Train the paper's systems for a domain, and write them with their curves."""
+    torch.set_num_threads(THREADS)
+    copynet.train_paper((domain,), settings, seed=seed, folder=folder, log=print)
 
 
 def _train(
@@ -123,7 +153,7 @@ def _train(
 
     def log(epoch: spans.Epoch) -> None:
         curve.append(epoch)
-        print(name, " ".join(f"{key} {value}" for key, value in epoch.items()))
+        print(name, " ".join(f"{key} {value}" for key, value in epoch.items()), flush=True)
 
     model = spans.train(course, settings, seed=seed, log=log, words=words, device=device)
     save_model(model, folder, name=name)
@@ -158,6 +188,7 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--share", type=float, default=1.0, help="default, composition: part of the texts of an epoch")
     parser.add_argument("--member", type=int, choices=range(len(NAMES)), help="composition: one of the networks only")
     parser.add_argument("--device", default="cpu", help="default, composition: where to train, such as cuda")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="networks that are trained side by side")
     parser.add_argument("--output", type=Path, default=SHIPPED, help="folder to write to")
     parser.add_argument("--domain", choices=[*Domain, "both"], default="both", help="paper: which T to train on")
     parser.add_argument("--hide", type=float, help="paper: part of the words that are shown as unknown words")

@@ -11,7 +11,8 @@ import pytest
 
 from benchmarks.server import address, serving, started
 from models.world import toys_spec
-from tests.service.conftest import check_problem, run_cli
+from service.seeds import NEW
+from tests.service.conftest import run_cli
 
 
 def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
@@ -21,11 +22,14 @@ def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
         world = {**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "mine"}
         assert httpx.post(f"{url}/environments", json=world).status_code == 201
         plan = httpx.post(f"{url}/plan", json={"ltl": "F holding(cube)", "environment": "mine"}, timeout=60).json()
+        gone = ("templates/pickup", "environments/navigation")
+        assert [httpx.delete(f"{url}/{path}").status_code for path in gone] == [204, 204]
         template = httpx.post(f"{url}/learn", json=lesson)
         process.kill()  # right after the 201
     assert template.status_code == 201
     with serving(tmp_path) as client:
         assert client.get("/templates/hold").json() == template.json()
+        assert [client.get(path).status_code for path in gone] == [404, 404]
         kept = client.get("/environments/mine").json()["spec"]
         assert client.put("/environments/mine", json=kept).json()["spec"] == kept
         assert {name: thing["class"] for name, thing in kept["objects"].items()} == {"box": "box", "cube": "toy"}
@@ -35,45 +39,27 @@ def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
         assert grounded.json()["ltl"] == "F holding(cylinder)"
 
 
-def test_what_was_deleted_stays_deleted(tmp_path: Path) -> None:
+def test_an_older_store_gets_what_is_new_and_keeps_its_own(tmp_path: Path) -> None:
+    """The first tasks get their readings, the worlds their samples; what was deleted or changed stays so."""
     with serving(tmp_path) as client:
-        assert client.delete("/templates/pickup").status_code == 204
-        assert client.delete("/environments/navigation").status_code == 204
-    with serving(tmp_path) as client:
-        assert client.get("/templates/pickup").status_code == 404
-        assert client.get("/environments/navigation").status_code == 404
-        assert client.get("/templates/ship").status_code == 200
-
-
-def test_the_first_tasks_of_an_older_store_get_their_readings(tmp_path: Path) -> None:
-    with serving(tmp_path) as client:
-        before = client.get("/templates/ship").json()
-        assert client.delete("/templates/pickup").status_code == 204
-    with sqlite3.connect(tmp_path / "cqltl.sqlite3") as store:
-        store.execute("UPDATE templates SET reading = ''")
-        store.execute("DELETE FROM facts WHERE name = 'seeds are read in English'")
-    store.close()
-    with serving(tmp_path) as client:
-        assert client.get("/templates/ship").json() == {**before, "revision": before["revision"] + 1}
-        assert client.get("/templates/pickup").status_code == 404
-
-
-def test_an_older_store_gets_the_new_worlds_and_samples_but_keeps_its_own(tmp_path: Path) -> None:
-    with serving(tmp_path) as client:
+        ship = client.get("/templates/ship").json()
         spec = {name: client.get(f"/environments/{name}").json()["spec"] for name in ("toys", "navigation")}
         plain = {
             name: {k: v for k, v in data.items() if k not in ("samples", "lessons")} for name, data in spec.items()
         }
         client.put("/environments/toys", json=plain["toys"])
         client.put("/environments/navigation", json={**plain["navigation"], "parameters": {"slip": 0.5}})
-        for name in ("city", "house", "warehouse", "toys-4x1-sphere"):
-            assert client.delete(f"/environments/{name}").status_code == 204
+        for path in ("templates/pickup", *(f"environments/{n}" for n in (*NEW, "toys-4x1-sphere"))):
+            assert client.delete(path).status_code == 204
     with sqlite3.connect(tmp_path / "cqltl.sqlite3") as store:
-        store.execute("DELETE FROM facts WHERE name = 'worlds have samples'")
+        store.execute("UPDATE templates SET reading = ''")
+        store.execute("DELETE FROM facts WHERE name IN ('seeds are read in English', 'worlds have samples')")
     store.close()
     with serving(tmp_path) as client:
+        assert client.get("/templates/ship").json() == {**ship, "revision": ship["revision"] + 1}
+        assert client.get("/templates/pickup").status_code == 404
         listed = {item["name"]: item["samples"] for item in client.get("/environments").json()["items"]}
-        assert set(listed) == {"city", "house", "warehouse", "toys", "toys-4x1-cylinder", "navigation"}
+        assert set(listed) == {*NEW, "toys", "toys-4x1-cylinder", "navigation"}
         assert client.get("/environments/toys").json()["spec"] == spec["toys"]
         assert listed["navigation"] == [], "it was changed, so it stays as it is"
 
@@ -114,14 +100,3 @@ def test_a_wrong_setting_is_named(tmp_path: Path, setting: tuple[str, str]) -> N
     assert result.returncode == 2
     assert result.stderr.startswith(setting[0])
     assert not list(tmp_path.iterdir())
-
-
-def test_a_locked_store_is_not_ready_and_not_broken(tmp_path: Path) -> None:
-    with serving(tmp_path) as client:
-        lock = sqlite3.connect(tmp_path / "cqltl.sqlite3", isolation_level=None)
-        lock.execute("BEGIN IMMEDIATE")
-        lesson = {"contextual_query": "hold(sphere)", "ltl": "F holding(sphere)", "environment": "toys"}
-        check_problem(client.post("/learn", json=lesson), "not-ready", 503)
-        lock.execute("ROLLBACK")
-        lock.close()
-        assert client.post("/learn", json=lesson).status_code == 201

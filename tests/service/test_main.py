@@ -12,29 +12,36 @@ import yaml
 
 from benchmarks.server import serving
 from models.world import toys_spec
+from service.__main__ import main
 from tests.service.conftest import run_cli
 
 SHIP = "Put the cylinder in the box, then put the box in the bedroom"
 
 
 def test_the_whole_path_without_a_server(tmp_path: Path) -> None:
-    learned = run_cli("learn", "stash(sphere)", "F in(sphere, box)", "--environment", "toys", data=tmp_path)
+    """`translate` is in the next test. However short the wait, no plan becomes a job."""
+    lesson = ["stash(sphere)", "F in(sphere, box)", "--environment", "toys", "--explanation", "the {1} is stashed"]
+    learned = run_cli("learn", *lesson, data=tmp_path)
     assert learned.returncode == 0, learned.stderr
     assert json.loads(learned.stdout)["template"] == "F in($1, box)"
-    translated = run_cli("translate", SHIP, "--environment", "toys", data=tmp_path)
-    assert json.loads(translated.stdout)["contextual_query"]["text"] == "ship(cylinder, box, bedroom)"
-    planned = run_cli("plan", "--contextual-query", "stash(cylinder)", "--environment", "toys", data=tmp_path)
-    assert json.loads(planned.stdout)["outcome"] == "solved"
+    query = ["--contextual-query", "stash(cylinder)", "--environment", "toys"]
+    said = json.loads(run_cli("explain", *query, data=tmp_path).stdout)
+    assert (said["explanation"], said["reading"]) == (
+        "the cylinder is stashed",
+        "eventually the cylinder is in the box",
+    )
+    planned = run_cli("plan", *query, data=tmp_path, CQLTL_WAIT_S="0")
+    assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr
 
 
 def test_the_same_against_a_server(client: httpx.Client, tmp_path: Path) -> None:
     server = ["--server", str(client.base_url)]
-    here = run_cli("translate", SHIP, "--environment", "toys", data=tmp_path / "local")
-    with serving() as new:  # one that nothing was taught
-        there = run_cli(
-            "translate", SHIP, "--environment", "toys", "--server", str(new.base_url), data=tmp_path / "unused"
-        )
-    assert here.stdout == there.stdout
+    question = ("translate", SHIP, "--environment", "toys-4x1-cylinder")
+    here = run_cli(*question, data=tmp_path / "local")
+    there = run_cli(*question, *server, data=tmp_path / "unused")
+    found, expected = json.loads(here.stdout), json.loads(there.stdout)
+    taught = ("confidence", "templates")  # other tests teach the server
+    assert {k: v for k, v in found.items() if k not in taught} == {k: v for k, v in expected.items() if k not in taught}
     learned = run_cli(
         "learn",
         "cli(sphere)",
@@ -50,24 +57,7 @@ def test_the_same_against_a_server(client: httpx.Client, tmp_path: Path) -> None
     assert not (tmp_path / "unused").exists()
 
 
-def test_explaining_without_a_server_and_with_one(client: httpx.Client, tmp_path: Path) -> None:
-    learned = run_cli(
-        "learn",
-        "stash(sphere)",
-        "F in(sphere, box)",
-        "--environment",
-        "toys",
-        "--explanation",
-        "the {1} is stashed",
-        data=tmp_path,
-    )
-    assert learned.returncode == 0, learned.stderr
-    here = run_cli("explain", "--contextual-query", "stash(cylinder)", "--environment", "toys", data=tmp_path)
-    said = json.loads(here.stdout)
-    assert (said["explanation"], said["reading"]) == (
-        "the cylinder is stashed",
-        "eventually the cylinder is in the box",
-    )
+def test_explaining_with_a_server(client: httpx.Client, tmp_path: Path) -> None:
     arguments = ["explain", "G F a", "--server", str(client.base_url)]
     there = run_cli(*arguments, data=tmp_path / "unused")
     assert json.loads(there.stdout)["explanation"] == "again and again a holds"
@@ -138,9 +128,9 @@ def test_the_document_is_the_servers(client: httpx.Client, tmp_path: Path) -> No
     assert yaml.safe_load(there.stdout) == yaml.safe_load(here.stdout) == client.get("/openapi.json").json()
     stale = tmp_path / "stale.yaml"
     stale.write_text("openapi: 3.1.0\n")
-    assert run_cli("openapi", "--check", str(stale), data=tmp_path).returncode == 1
-    assert run_cli("openapi", "--output", str(stale), data=tmp_path).returncode == 0
-    assert run_cli("openapi", "--check", str(stale), data=tmp_path).returncode == 0
+    assert main(["openapi", "--check", str(stale)]) == 1
+    assert main(["openapi", "--output", str(stale)]) == 0
+    assert main(["openapi", "--check", str(stale)]) == 0
 
 
 def test_a_server_that_is_not_there(tmp_path: Path) -> None:
@@ -176,9 +166,3 @@ def test_a_plan_that_becomes_a_job_is_waited_for(tmp_path: Path) -> None:
         assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr
         (job,) = client.get("/jobs").json()["items"]
         assert job["state"] == "succeeded"
-
-
-def test_without_a_server_no_plan_becomes_a_job(tmp_path: Path) -> None:
-    arguments = ["plan", "Pickup the sphere", "--environment", "toys-4x1-sphere"]
-    planned = run_cli(*arguments, data=tmp_path, CQLTL_WAIT_S="0")
-    assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr

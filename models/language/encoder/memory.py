@@ -25,10 +25,12 @@ class WordReader(Protocol):
 class RememberingReader:
     """As `reader`, but each text is read once and its vectors are kept, a few kilobytes a word.
 
-    A text is read alone: then its vectors do not depend on the texts that were asked for with it.
+    A text is read alone: then its vectors do not depend on the texts that were asked for with it. In training, where
+    that does not matter, new texts are read `together`.
     """
 
     reader: WordReader
+    together: bool = False
     _known: dict[tuple[str, ...], Tensor] = field(default_factory=dict, repr=False)
 
     @property
@@ -38,10 +40,9 @@ class RememberingReader:
 
     def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
         """See `WordReader`."""
-        found = [self._read(tuple(text)) for text in texts]
-        return torch.nn.utils.rnn.pad_sequence(found, batch_first=True)
-
-    def _read(self, text: tuple[str, ...]) -> Tensor:
-        if text not in self._known:
-            self._known[text] = self.reader.read([text])[0].clone()
-        return self._known[text]
+        asked = [tuple(text) for text in texts]
+        new = [text for text in dict.fromkeys(asked) if text not in self._known]
+        for part in [new] if self.together and new else [[text] for text in new]:
+            for text, vectors in zip(part, self.reader.read(part), strict=True):
+                self._known[text] = vectors[: len(text)].clone()
+        return torch.nn.utils.rnn.pad_sequence([self._known[text] for text in asked], batch_first=True)

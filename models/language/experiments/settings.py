@@ -54,8 +54,8 @@ class Settings:
             copynet=replace(self.copynet, epochs=2),
             spans=replace(self.spans, epochs=1, share=0.03),
             taught=200,
-            most=4,
-            open_world=40,
-            paraphrases=2,
-            refusals=20,
+            most=2,
+            open_world=10,
+            paraphrases=1,
+            refusals=10,
         )

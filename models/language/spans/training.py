@@ -9,7 +9,7 @@ from typing import Protocol
 
 import torch
 
-from models.language.encoder import WordReader, encoder
+from models.language.encoder import RememberingReader, WordReader, encoder
 from models.language.errors import TrainingError
 from models.language.spans.calibration import best_temperature
 from models.language.spans.items import Item, batches, likelihood, likelihoods
@@ -116,6 +116,7 @@ def _fit(
     """Run the epochs. The last weights are kept: the learning rate has fallen to zero by then."""
     optimizer = torch.optim.Adam(network.parameters(), lr=settings.learning_rate)
     schedule: torch.optim.lr_scheduler.CosineAnnealingLR | None = None
+    of_checks = RememberingReader(words, together=True)  # the same in every epoch
     for epoch in range(1, settings.epochs + 1):
         items = _part(course.epoch(generator), settings, generator)
         if schedule is None:
@@ -132,7 +133,7 @@ def _fit(
             optimizer.step()
             schedule.step()
             total += loss.item() * len(chunk)
-        checked = mean_loss(network, checks, words)
+        checked = mean_loss(network, checks, of_checks)
         if log is not None:
             log({"epoch": epoch, "loss": round(total / len(items), 5), "check_loss": round(checked, 5)})
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -11,18 +13,51 @@ import torch
 
 from models.language import SpanTranslator, TrainingError
 from models.language.dataset import Domain, generate
+from models.language.encoder import RememberingReader, encoder
 from models.language.errors import WeightsError
 from models.language.spans import SpanModel, load_model, save_model
+from models.language.spans.items import Item
 from models.language.spans.lessons import Lessons
 from models.language.spans.training import Epoch, Settings, train
 
-SMALL = Settings(epochs=8, share=0.1, batch=16, embedding=24, projection=24, encoder=32, layers=1)
+SMALL = Settings(epochs=8, batch=16, embedding=24, projection=24, encoder=32, layers=1)
 
 
-@pytest.fixture(scope="session")
-def trained() -> tuple[SpanModel, list[Epoch]]:
+@dataclass(frozen=True, slots=True)
+class _Few:
+    """A course with few of the texts of another, which are drawn once."""
+
+    tasks: tuple[tuple[str, int], ...]
+    words: tuple[str, ...]
+    drawn: Sequence[Item]
+    checked: Sequence[Item]
+    size: int
+
+    def epoch(self, generator: random.Random) -> list[Item]:
+        return generator.sample(self.drawn, self.size)
+
+    def checks(self, generator: random.Random) -> list[Item]:
+        return generator.sample(self.checked, self.size // 4)
+
+
+@pytest.fixture(scope="module")
+def course() -> _Few:
+    lessons = Lessons.load(seed=3)
+    generator = random.Random(3)
+    drawn = generator.sample(lessons.epoch(generator), 2_000)
+    return _Few(lessons.tasks, lessons.words, drawn, lessons.checks(generator), 1_000)
+
+
+@pytest.fixture(scope="module")
+def brief(course: _Few) -> _Few:
+    return replace(course, size=40)
+
+
+@pytest.fixture(scope="module")
+def trained(course: _Few) -> tuple[SpanModel, list[Epoch]]:
     curve: list[Epoch] = []
-    return train(Lessons.load(seed=3), SMALL, seed=3, log=curve.append), curve
+    words = RememberingReader(encoder(), together=True)
+    return train(course, SMALL, seed=3, log=curve.append, words=words), curve
 
 
 def test_it_learns(trained: tuple[SpanModel, list[Epoch]]) -> None:
@@ -35,18 +70,17 @@ def test_it_learns(trained: tuple[SpanModel, list[Epoch]]) -> None:
     assert sum(right) >= 0.25 * len(right)  # guessing the task alone is right in one of eight
 
 
-def test_the_same_seed_gives_the_same_model_and_another_another(trained: tuple[SpanModel, list[Epoch]]) -> None:
-    brief, lessons = replace(SMALL, epochs=1, share=0.01), Lessons.load(seed=5)
-    one, two, other = (train(lessons, brief, seed=seed).network.state_dict() for seed in (5, 5, 6))
+def test_the_same_seed_gives_the_same_model_and_another_another(brief: _Few) -> None:
+    one, two, other = (train(brief, replace(SMALL, epochs=1), seed=seed).network.state_dict() for seed in (5, 5, 6))
     assert all(torch.equal(one[key], two[key]) for key in one)
     assert not torch.equal(one["task.weight"], other["task.weight"])
 
 
-def test_training_leaves_the_callers_generator_alone() -> None:
+def test_training_leaves_the_callers_generator_alone(brief: _Few) -> None:
     torch.manual_seed(11)
     expected = torch.rand(1)
     torch.manual_seed(11)
-    train(Lessons.load(seed=0), replace(SMALL, epochs=1, share=0.01), seed=0)
+    train(brief, replace(SMALL, epochs=1), seed=0)
     assert torch.equal(torch.rand(1), expected)
 
 
@@ -84,6 +118,13 @@ def test_damaged_files_are_refused(trained: tuple[SpanModel, list[Epoch]], tmp_p
             load_model(tmp_path)
 
 
-def test_a_run_needs_an_epoch() -> None:
+def test_a_run_needs_an_epoch(brief: _Few) -> None:
     with pytest.raises(TrainingError):
-        train(Lessons.load(seed=0), replace(SMALL, epochs=0))
+        train(brief, replace(SMALL, epochs=0))
+
+
+def test_a_share_of_the_texts(brief: _Few) -> None:
+    """Fewer texts are other texts, so the networks differ."""
+    settings = replace(SMALL, epochs=1)
+    whole, part = (train(brief, replace(settings, share=share)).network.state_dict() for share in (1.0, 0.5))
+    assert not torch.equal(whole["task.weight"], part["task.weight"])

@@ -27,8 +27,13 @@ TEXTS = [
 
 
 @pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    with serving(tmp_path_factory.mktemp("data")) as found:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def server(folder: Path) -> Iterator[httpx.Client]:
+    with serving(folder) as found:
         yield found
 
 
@@ -75,14 +80,21 @@ def test_steps(server: httpx.Client) -> None:
     assert post(server, path, good[0]).status_code == 404
 
 
-def test_metrics_count_what_is_given_again(tmp_path: Path) -> None:
-    with serving(tmp_path) as client:
-        for _ in range(3):
-            post(client, "/translate", TEXTS[0])
-        found = client.get("/metrics").text
-    assert 'cqltl_translations_total{outcome="translated",translator="default"} 3.0' in found
-    assert 'cqltl_request_seconds_count{method="POST",route="/translate",status="200"} 3.0' in found
-    assert 'cqltl_translation_confidence_count{translator="default"} 3.0' in found
+def test_metrics_count_what_is_given_again(server: httpx.Client) -> None:
+    counted = (
+        'cqltl_translations_total{outcome="translated",translator="default"}',
+        'cqltl_request_seconds_count{method="POST",route="/translate",status="200"}',
+        'cqltl_translation_confidence_count{translator="default"}',
+    )
+
+    def counts() -> list[float]:
+        lines = dict(line.rsplit(" ", 1) for line in server.get("/metrics").text.splitlines() if line[0] != "#")
+        return [float(lines.get(name, 0)) for name in counted]
+
+    before = counts()
+    for _ in range(3):
+        post(server, "/translate", TEXTS[0])
+    assert counts() == [count + 3 for count in before]
 
 
 @pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
@@ -116,15 +128,12 @@ def test_a_change_is_seen_at_once_by_every_process(kind: str, tmp_path: Path, re
             assert [post(client, "/translate", here).status_code for client in (one, other)] == [404, 404]
 
 
-def test_no_more_than_may_be_kept_is(tmp_path: Path) -> None:
-    """With room for a few answers, and with none, the answers are the same."""
-    with (
-        serving(tmp_path, CQLTL_TRANSLATION_CACHE_BYTES="3000") as small,
-        serving(tmp_path, CQLTL_TRANSLATION_CACHE_BYTES="0", CQLTL_POLICY_CACHE_BYTES="0") as none,
-    ):
+def test_no_more_than_may_be_kept_is(server: httpx.Client, folder: Path) -> None:
+    """With room for a few answers the answers are the same; for none, see tests/service/test_same_bytes.py."""
+    with serving(folder, CQLTL_TRANSLATION_CACHE_BYTES="3000", CQLTL_POLICY_CACHE_BYTES="1") as small:
         for _ in range(2):
             for body in TEXTS:
-                assert same(post(small, "/translate", body), post(none, "/translate", body))
-        url = plan(none, text="Pickup the sphere", environment="toys-4x1-sphere")["policy"]["url"]
-        state = plan(none, text="Pickup the sphere", environment="toys-4x1-sphere")["initial"]
-        assert same(post(small, f"{url}/step", state), post(none, f"{url}/step", state))
+                assert same(post(small, "/translate", body), post(server, "/translate", body))
+        found = plan(server, text="Pickup the sphere", environment="toys-4x1-sphere")
+        url = found["policy"]["url"]
+        assert same(post(small, f"{url}/step", found["initial"]), post(server, f"{url}/step", found["initial"]))

@@ -13,6 +13,8 @@ from tests.service.postgres import Postgres
 Deploy = Callable[..., Deployment]
 
 KINDS = ("sqlite", "postgresql")
+ON_BOTH = [KINDS[0], pytest.param(KINDS[1], marks=pytest.mark.long)]
+"""What takes minutes runs on one of them, and on both with `make promises`."""
 
 
 def _make(request: pytest.FixtureRequest, folder: Path, **environment: str) -> Deployment:
@@ -30,9 +32,17 @@ def shared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     found.close()
 
 
-@pytest.fixture(params=[KINDS[0], pytest.param(KINDS[1], marks=pytest.mark.long)])
+@pytest.fixture(scope="module", params=ON_BOTH)
+def sturdy(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
+    """A deployment that the tests of a module share, and whose worker processes they kill."""
+    found = _make(request, tmp_path_factory.mktemp("sturdy"))
+    yield found
+    found.close()
+
+
+@pytest.fixture(params=ON_BOTH)
 def deploy(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Deploy]:
-    """Makes deployments of a test's own, with settings of its own. It takes minutes: `make promises` tries both."""
+    """Makes deployments of a test's own, with settings of its own."""
     found: list[Deployment] = []
 
     def make(**environment: str) -> Deployment:

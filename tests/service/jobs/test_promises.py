@@ -1,4 +1,7 @@
-"""An accepted job is never lost, and every job ends, whatever is killed: on every executor."""
+"""An accepted job is never lost, and every job ends, whatever is killed: on every executor.
+
+`make promises` runs all of it; where every change is tested, there are those that need few processes, on SQLite.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,18 @@ import pytest
 from benchmarks.processes import children, computing, gone_within
 from tests.service.conftest import check_problem, learn
 from tests.service.jobs.conftest import Deploy
-from tests.service.jobs.deployments import ENDLESS, LEASE_S, SLOW, Embedded, Queued, kill, order, task, wait_for
+from tests.service.jobs.deployments import (
+    ENDLESS,
+    LEASE_S,
+    SLOW,
+    Deployment,
+    Embedded,
+    Queued,
+    kill,
+    order,
+    task,
+    wait_for,
+)
 from tests.service.postgres import Postgres
 
 ENDS = ("succeeded", "failed", "cancelled")
@@ -27,44 +41,52 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(response.json()["policy"]["id"])
 
 
-def test_a_job_whose_process_is_killed_is_planned_all_the_same(deploy: Deploy, undisturbed: str) -> None:
-    deployment = deploy()
-    url = order(deployment.client, SLOW)
-    wait_for(deployment.client, url, "running")
+def test_a_job_whose_process_is_killed_is_planned_all_the_same(sturdy: Deployment, undisturbed: str) -> None:
+    url = order(sturdy.client, SLOW)
+    wait_for(sturdy.client, url, "running")
     time.sleep(0.3)
-    kill(deployment.busy_child())
-    job = wait_for(deployment.client, url, *ENDS)
+    kill(sturdy.busy_child())
+    job = wait_for(sturdy.client, url, *ENDS)
     assert job["state"] == "succeeded"
     assert job["plan"]["policy"]["id"] == undisturbed
 
 
-def test_a_job_whose_process_is_killed_again_and_again_ends(deploy: Deploy) -> None:
-    deployment = deploy()
-    url = order(deployment.client, ENDLESS)
-    wait_for(deployment.client, url, "running")
+def test_a_job_whose_process_is_killed_again_and_again_ends(sturdy: Deployment) -> None:
+    url = order(sturdy.client, ENDLESS)
+    wait_for(sturdy.client, url, "running")
     killed: set[int] = set()
-    while deployment.client.get(url).json()["state"] == "running" and len(killed) < 10:
-        if deployment.children - killed:
-            child = deployment.busy_child()
+    while sturdy.client.get(url).json()["state"] == "running" and len(killed) < 10:
+        if sturdy.children - killed:
+            child = sturdy.busy_child()
             killed.add(child)
             kill(child)
-    job = wait_for(deployment.client, url, *ENDS)
+    job = wait_for(sturdy.client, url, *ENDS)
     assert job["state"] == "failed"
     assert job["error"]["type"].endswith("worker-died")
     assert 3 <= len(killed) < 10  # an idle one may have been busy with its start
 
 
-def test_killing_all_that_a_service_started_costs_no_job(deploy: Deploy, undisturbed: str) -> None:
+def test_killing_all_that_a_service_started_costs_no_job(sturdy: Deployment, undisturbed: str) -> None:
     """The fork server too, from which its worker processes come."""
-    deployment = deploy()
-    url = order(deployment.client, SLOW)
-    wait_for(deployment.client, url, "running")
-    for process in deployment.planners:
+    url = order(sturdy.client, SLOW)
+    wait_for(sturdy.client, url, "running")
+    for process in sturdy.planners:
         for pid in children(process.pid):
             kill(pid)
-    job = wait_for(deployment.client, url, *ENDS)
+    job = wait_for(sturdy.client, url, *ENDS)
     assert job["state"] == "succeeded"
     assert job["plan"]["policy"]["id"] == undisturbed
+
+
+def test_a_job_that_another_service_cancels_is_killed_within_a_second(sturdy: Deployment) -> None:
+    other = sturdy.connect(sturdy.serve())
+    url = order(sturdy.client, ENDLESS)
+    wait_for(sturdy.client, url, "running")
+    time.sleep(0.5)
+    child = sturdy.busy_child()
+    assert other.post(f"{url}/cancel").json()["state"] == "cancelled"
+    assert gone_within(child, 2.0)  # a second, on a machine that does not run all these tests
+    assert sturdy.client.get(url).json()["state"] == "cancelled"
 
 
 def test_a_job_survives_the_death_of_whoever_runs_it(deploy: Deploy, undisturbed: str) -> None:
@@ -98,6 +120,7 @@ def test_a_restart_loses_no_job_and_takes_them_up_at_once(deploy: Deploy) -> Non
         assert wait_for(deployment.client, url, *ENDS, within_s=30)["state"] == "succeeded"
 
 
+@pytest.mark.long
 def test_a_job_runs_in_one_place_only(deploy: Deploy) -> None:
     deployment = deploy()
     deployment.add_planner()
@@ -123,18 +146,7 @@ def test_a_job_beyond_its_deadline_fails(deploy: Deploy) -> None:
     assert time.monotonic() - began < 6
 
 
-def test_a_job_that_another_service_cancels_is_killed_within_a_second(deploy: Deploy) -> None:
-    deployment = deploy()
-    other = deployment.connect(deployment.serve())
-    url = order(deployment.client, ENDLESS)
-    wait_for(deployment.client, url, "running")
-    time.sleep(0.5)
-    child = deployment.busy_child()
-    assert other.post(f"{url}/cancel").json()["state"] == "cancelled"
-    assert gone_within(child, 2.0)  # a second, on a machine that does not run all these tests
-    assert deployment.client.get(url).json()["state"] == "cancelled"
-
-
+@pytest.mark.long
 def test_a_plan_that_needs_too_much_memory_is_refused_and_the_next_one_is_planned(deploy: Deploy) -> None:
     limit = 1_500_000_000
     deployment = deploy(CQLTL_WORKER_MEMORY_BYTES=str(limit), CQLTL_WORKERS="1")
@@ -160,6 +172,7 @@ def test_an_open_stream_does_not_keep_a_service_from_stopping(deploy: Deploy) ->
     assert time.monotonic() - began < 5
 
 
+@pytest.mark.long
 def test_a_database_server_that_is_killed_costs_no_job(tmp_path: Path, postgres: Postgres, undisturbed: str) -> None:
     deployment = Queued(tmp_path, CQLTL_DATABASE_URL=postgres.database())
     try:
@@ -180,6 +193,7 @@ def test_a_database_server_that_is_killed_costs_no_job(tmp_path: Path, postgres:
         deployment.close()
 
 
+@pytest.mark.long
 def test_replicas_know_at_once_what_one_of_them_was_taught(tmp_path: Path, postgres: Postgres) -> None:
     deployment = Queued(tmp_path, CQLTL_DATABASE_URL=postgres.database())
     try:
@@ -196,6 +210,7 @@ def test_replicas_know_at_once_what_one_of_them_was_taught(tmp_path: Path, postg
         deployment.close()
 
 
+@pytest.mark.long
 def test_a_plan_for_a_gpu_waits_for_a_worker_of_that_queue(tmp_path: Path, postgres: Postgres) -> None:
     deployment = Queued(tmp_path, queues="plan", CQLTL_DATABASE_URL=postgres.database())
     try:

@@ -6,12 +6,14 @@ import socket
 from pathlib import Path
 
 import httpx
+import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
 from tests.service.jobs.deployments import Queued
 from tests.service.postgres import Postgres
 
 
+@pytest.mark.long
 def test_plans_are_counted_where_they_are_made(tmp_path: Path, postgres: Postgres) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
