@@ -49,8 +49,6 @@ REFUSED = 2_000
 """Texts without a task that the matching network is shown."""
 HELD_OUT = 6
 """Every so many-th task class is not fitted to: the matching network is calibrated on these."""
-THREADS = 1
-"""The networks are small: a second thread makes every step slower."""
 SHIPPED = Path(__file__).parent / "weights"
 
 
@@ -60,28 +58,35 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parts = _parts(options)
     if options.jobs < 2 or len(parts) == 1:
         for part in parts:
-            part()
+            _on_one_thread(part)
         return
     context = multiprocessing.get_context("spawn")  # a forked process would share torch's threads
     with ProcessPoolExecutor(options.jobs, context, max_tasks_per_child=1) as pool:
-        for trained in [pool.submit(part) for part in parts]:
+        for trained in [pool.submit(_on_one_thread, part) for part in parts]:
             trained.result()
 
 
-def _parts(options: argparse.Namespace) -> Sequence[Callable[[], None]]:
+def _on_one_thread(part: Callable[[], object]) -> None:
+    """Train a part; the networks are small: a second thread makes every step slower."""
+    torch.set_num_threads(1)
+    part()
+
+
+def _parts(options: argparse.Namespace) -> Sequence[Callable[[], object]]:
     """What is asked for, network by network; those that take longest come first."""
     asked = {"composition", "default", "matching", "paper"} if options.what == "all" else {options.what}
     common = {"seed": options.seed, "folder": options.output}
-    parts: list[Callable[[], None]] = []
+    parts: list[Callable[[], object]] = []
     if "composition" in asked:
-        for member in range(len(NAMES)) if options.member is None else (options.member,):
-            chosen = _chosen(SETTINGS, options)
-            parts.append(partial(train_composition, chosen, member=member, device=options.device, **common))
+        composition = partial(train_composition, _chosen(SETTINGS, options), device=options.device, **common)
+        members = range(len(NAMES)) if options.member is None else (options.member,)
+        parts += [partial(composition, member=member) for member in members]
     if "default" in asked:
         parts.append(partial(train_default, _chosen(spans.Settings(), options), device=options.device, **common))
     if "paper" in asked:
-        for domain in Domain if options.domain == "both" else (Domain(options.domain),):
-            parts.append(partial(train_paper, domain, _copynet_settings(options), **common))
+        domains = tuple(Domain) if options.domain == "both" else (Domain(options.domain),)
+        settings = _copynet_settings(options)
+        parts += [partial(copynet.train_paper, (domain,), settings, log=print, **common) for domain in domains]
     if "matching" in asked:
         parts.append(partial(train_matching, matching.Settings(), **common))
     return parts
@@ -89,7 +94,6 @@ def _parts(options: argparse.Namespace) -> Sequence[Callable[[], None]]:
 
 def train_default(settings: spans.Settings, *, seed: int, folder: Path, device: str = "cpu") -> None:
     """Train the default translator's network of single tasks, and write it with its curve."""
-    torch.set_num_threads(THREADS)
     lessons, words = Lessons.load(seed=seed), _encoder(device)
     _train(lessons, settings, seed=seed, folder=folder, name=DEFAULT_NAME, words=words, device=device)
 
@@ -98,7 +102,6 @@ def train_composition(settings: spans.Settings, *, member: int, seed: int, folde
     """Train one of the networks that find the clauses of a command, and write it with its curve; each member has a seed
     of its own, counted from `seed`.
     """
-    torch.set_num_threads(THREADS)
     own, words = seed + member, MarkedReader.load(_encoder(device))
     lessons = CompositionLessons.load(seed=own)
     _train(lessons, settings, seed=own, folder=folder, name=NAMES[member], words=words, device=device)
@@ -106,7 +109,6 @@ def train_composition(settings: spans.Settings, *, member: int, seed: int, folde
 
 def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
     """Train the network that compares commands with what was taught, and write it with its curve."""
-    torch.set_num_threads(THREADS)
     generator = random.Random(seed)
     classes = [*task_classes(), *paper_classes(generator)]
     lessons = [lesson(task, generator) for task in classes]
@@ -131,12 +133,6 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
     save_model_of_matching(replace(model, training=made), folder)
     (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")
     print(f"matching: steepness {model.steepness}, threshold {model.threshold}, lesser {model.lesser}")
-
-
-def train_paper(domain: Domain, settings: copynet.Settings, *, seed: int, folder: Path) -> None:
-    """Train the paper's systems for a domain, and write them with their curves."""
-    torch.set_num_threads(THREADS)
-    copynet.train_paper((domain,), settings, seed=seed, folder=folder, log=print)
 
 
 def _train(

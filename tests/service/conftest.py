@@ -28,6 +28,19 @@ def client() -> Iterator[httpx.Client]:
         yield found
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where `server` has its store."""
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def server(folder: Path) -> Iterator[httpx.Client]:
+    """A client of a server that the tests of one module share."""
+    with serving(folder) as found:
+        yield found
+
+
 @pytest.fixture(scope="session")
 def postgres() -> Iterator[Postgres]:
     """A PostgreSQL server; skips with what to install where there is none."""

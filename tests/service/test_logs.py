@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import httpx
+import pytest
 
 from benchmarks.server import address
 from service.logs import JOB_ID, REQUEST_ID, JsonFormatter, TextFormatter
@@ -52,10 +53,11 @@ def test_text_lines() -> None:
     assert TextFormatter().format(record("x", failed=True)).endswith("RuntimeError: why")
 
 
-def test_a_server_logs_requests_with_their_ids(tmp_path: Path) -> None:
+@pytest.mark.parametrize("form", ["json", "text"])
+def test_a_server_logs_requests_with_their_ids(tmp_path: Path, form: str) -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "service", "serve", "--port", "0"],
-        env={**os.environ, "CQLTL_DATA_DIR": str(tmp_path), "CQLTL_LOG_FORMAT": "json", "CQLTL_LOG_LEVEL": "info"},
+        env={**os.environ, "CQLTL_DATA_DIR": str(tmp_path), "CQLTL_LOG_FORMAT": form, "CQLTL_LOG_LEVEL": "info"},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -68,6 +70,12 @@ def test_a_server_logs_requests_with_their_ids(tmp_path: Path) -> None:
         process.terminate()
         _, said = process.communicate(timeout=30)
     lines = [line for line in said.splitlines() if "/livez" in line or "/plan" in line]
+    if form == "text":
+        assert [line.rpartition(" ms ")[2] for line in lines] == [
+            "request_id=one",
+            f"request_id=two job_id={job['id']}",
+        ]
+        return
     first, second = map(json.loads, lines)
     assert (first["request_id"], first["method"], first["path"], first["status"]) == ("one", "GET", "/livez", 200)
     assert "job_id" not in first

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
-import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from benchmarks.server import serving
 from service.metrics import Metrics
 from tests.service.jobs.deployments import ENDLESS
 
@@ -25,12 +22,6 @@ def samples(text: str) -> dict[tuple[str, tuple[str, ...]], float]:
         for family in text_string_to_metric_families(text)
         for sample in family.samples
     }
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    with serving(tmp_path_factory.mktemp("data")) as found:
-        yield found
 
 
 def test_what_was_done_is_counted(server: httpx.Client) -> None:

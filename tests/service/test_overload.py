@@ -11,21 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
-import pytest
 
-from benchmarks.server import serving
 from tests.service.conftest import check_problem
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("data")
-
-
-@pytest.fixture(scope="module")
-def server(folder: Path) -> Iterator[httpx.Client]:
-    with serving(folder) as found:
-        yield found
 
 
 @contextmanager

@@ -42,7 +42,8 @@ class RememberingReader:
         """See `WordReader`."""
         asked = [tuple(text) for text in texts]
         new = [text for text in dict.fromkeys(asked) if text not in self._known]
-        for part in [new] if self.together and new else [[text] for text in new]:
+        parts = [[text] for text in new] if not self.together else [new] if new else []
+        for part in parts:
             for text, vectors in zip(part, self.reader.read(part), strict=True):
                 self._known[text] = vectors[: len(text)].clone()
         return torch.nn.utils.rnn.pad_sequence([self._known[text] for text in asked], batch_first=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,17 +23,6 @@ TEXTS = [
     {"text": "qwx zzy", "environment": "toys", "candidates": 3},
     {"text": "go to the kitchen", "translator": "ltl-copynet"},
 ]
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("data")
-
-
-@pytest.fixture(scope="module")
-def server(folder: Path) -> Iterator[httpx.Client]:
-    with serving(folder) as found:
-        yield found
 
 
 def post(client: httpx.Client, path: str, body: Any, kind: str = "application/json") -> httpx.Response:
