@@ -5,10 +5,9 @@
 The sets are in `models/language/dataset/composed`, written apart from the training data; those who work on the
 translator read the development half only. The varied ones were written later, as many different people talk: with
 reasons, asides, typing mistakes, numbered steps, in the passive. Commands are grounded in the built-in environments
-`toys` and `navigation`, with the templates that a new service has, and one more task that is taught with a few wordings
-(`put_in`). A formula is right when Spot says that it is equivalent to the expected one, with atoms that hold in equal
-states of the environment taken for one (`at(robot, kitchen)` and `near(robot, kitchen)`). Times are those of
-translating and grounding, on one thread.
+`toys` and `navigation`, with what a new service was taught. A formula is right when Spot says that it is equivalent to
+the expected one, with atoms that hold in equal states of the environment taken for one (`at(robot, kitchen)` and
+`near(robot, kitchen)`). Times are those of translating and grounding, on one thread.
 """
 
 from __future__ import annotations
@@ -32,18 +31,10 @@ from models.language.matching.cards import cards_of
 from models.logic import Atom, Formula, atoms, equivalent, map_atoms, parse
 from models.queries import Example, Template, learn, parse_task, resolve_grounded
 from models.world import Environment, builtin_environments, explain, load_environment
+from service.seeds import seeds
 
 Part = Literal["development", "held-out"]
 PARTS: tuple[Part, ...] = ("development", "held-out")
-PUT_IN = ("put_in(ball, box)", "F in(sphere, box)")
-PUT_IN_WORDINGS = (
-    "put the ball in the box",
-    "put the ball into the box",
-    "place the ball in the box",
-    "load the ball into the box",
-    "putting the ball in the box",
-    "the ball is in the box",
-)
 
 
 @dataclass(slots=True)
@@ -71,21 +62,19 @@ class Bench:
 
     @classmethod
     def load(cls) -> Bench:
-        """What a new service has, and `put_in`."""
+        """What a new service has."""
         environments = {name: load_environment(data) for name, data in builtin_environments()}
-        seeds = yaml.safe_load((files("service") / "seeds.yaml").read_text(encoding="utf-8"))["templates"]
-        pairs = [(seed["contextual_query"], seed["ltl"], seed["environment"]) for seed in seeds]
         translator, matcher = ComposedTranslator.load(SpanTranslator.load()), Matcher.load()
-        utterances = [Utterance.of(wording, parse_task(PUT_IN[0])) for wording in PUT_IN_WORDINGS]
-        templates, shelf = {}, []
-        for said, ltl, environment in (*pairs, (*PUT_IN, "toys")):
-            query, world = parse_task(said), environments[environment]
-            template = templates[query.task] = learn([Example(query, parse(ltl))], world)
-            examples = matcher.known(utterances) if said == PUT_IN[0] else []
-            cards = matcher.known(cards_of(query, explain(template.formula, world)))
-            shelf.append(TaughtTask(query.task, template.arity, tuple(examples), tuple(cards)))
+        templates, shelf, taught = {}, [], []
+        for lesson in (*seeds("paper"), *seeds("common")):
+            query, world = parse_task(lesson.query), environments[lesson.environment]
+            template = templates[query.task] = learn([Example(query, parse(lesson.ltl))], world)
+            examples = [Utterance.of(wording, query) for wording in lesson.examples]
+            cards = matcher.known(cards_of(query, lesson.explanation or explain(template.formula, world)))
+            shelf.append(TaughtTask(query.task, template.arity, tuple(matcher.known(examples)), tuple(cards)))
+            taught += examples
         functions = {task: frozenset(a.function for a in atoms(t.formula)) for task, t in templates.items()}
-        wordings = TaughtTranslator.of(utterances)
+        wordings = TaughtTranslator.of(taught)
         lessons = Lessons(wordings, Shelf.of(shelf), matcher, functions, translator.tasks)
         return cls(Hearing(translator, lessons, templates.get), templates, environments)
 

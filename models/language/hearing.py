@@ -7,34 +7,41 @@ on. The last two weigh against each other: each is believed as far as the other 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 from models.language.composition import ComposedTranslator
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
-from models.language.reading import AMBIGUOUS, GROUNDED, SENSELESS, Reading, rank, read
-from models.language.teaching import TaughtTranslator
+from models.language.reading import SENSELESS, Reading, rank, read
+from models.language.teaching import INTERROGATIVES, TaughtTranslator
 from models.language.tokens import words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
 from models.language.trimming import trimmed
-from models.queries import Composition, ContextualQuery, Template
+from models.language.weighing import doubted, forbidden_too, merged, parted
+from models.queries import Template
 from models.world import Environment, mentions
 
 MATCHED = 12
 """Readings by nearness that are looked at: the environment may make sense of a later one only."""
+WIDER = 16
+"""Readings of the networks that are looked at where the likeliest mean nothing in the environment: with several tasks,
+each said of a place or of a thing, the one that makes sense may be far down.
+"""
 HEARD = 0.5
 """Probability of any taught task from which one is heard."""
 HEARD_OF_THINGS = 0.03
 """The same for a text that names things of the environment: that is hardly said to a robot there for nothing."""
 NEGATED = NEGATIONS | {"no"}
 """Words with which a text may forbid the task that it is near to."""
+FORBIDDEN = 0.5
+"""Probability that a text forbids something, from which it may forbid what it is near to."""
+ASKING = INTERROGATIVES | {"is", "are", "was", "were", "does", "did", "has"}
+"""Words with which questions begin."""
+QUESTION = 0.5
+"""Probability that a text asks for nothing from which it is a question, if it begins like one."""
 COMPOSED = 0.4
 """Confidence from which a text that means nothing as one task is taken for several."""
-DOUBTED = 0.3
-"""What is left of the probability of a composition around one taught task."""
-AROUND = 0.5
-"""Probability of the compositions around a task from which it is not taken for the whole."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,17 +66,6 @@ class Lessons:
     def nothing_new(self) -> bool:
         """Whether the networks know all tasks, so that there is nothing to compare with."""
         return all(task.task in self.own for task in self.shelf.tasks)
-
-    def doubted(self, heard: Translation, near: Sequence[Translation]) -> Translation:
-        """A composition around one taught task is rather a task in other words: "no lamp should be left on". Not if the
-        whole text is nearest to that one: then it says something of it, "don't put it in the box".
-        """
-        tasks = [task.task for _, task in heard.query.tasks]
-        if isinstance(heard.query, ContextualQuery) or len(tasks) > 1 or tasks[0] in self.own:
-            return heard
-        if near and tasks == [task.task for _, task in near[0].query.tasks]:
-            return heard
-        return replace(heard, confidence=DOUBTED * heard.confidence)
 
     def _taught(self, found: Sequence[Translation], *, least: float = HEARD) -> tuple[Translation, ...]:
         """Without the tasks that the networks know; nothing where all together are not probable."""
@@ -151,26 +147,62 @@ class Hearing:
         if isinstance(translator, ComposedTranslator):
             translator = translator.knowing(lessons.within(None), nearby=lessons.within(environment))
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
-        heard = translator.translate(text, candidates=wanted)
-        if not exact:
-            near = lessons.near(text, candidates=MATCHED, environment=environment)
-            if (
-                near
-                and not heard
-                and isinstance(translator, ComposedTranslator)
-                and not NEGATED.isdisjoint(words(text))
-            ):
-                heard = translator.several(text, candidates=wanted, asked=True)
-            near, heard = (
-                tuple(parted(translation, heard, lessons.own) for translation in near),
-                tuple(lessons.doubted(translation, near) for translation in heard),
-            )
-            heard = weighed(near, heard)
-        ranked = self._ranked(text, heard, environment)
-        if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
-            ranked = self._otherwise(text, heard, environment, translator, wanted) or ranked
+        heard = translator.translate(text, candidates=wanted if environment is None else WIDER)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
+        sensible = bool(exact) if environment is None else not _senseless(taught)
+        near: tuple[Translation, ...] = ()
+        if not sensible:
+            if not self._is_question(text):
+                near = lessons.near(text, candidates=MATCHED, environment=environment)
+            near, heard = self._told_apart(text, near, heard, environment, translator)
+        said = weighed(near, heard[:wanted])
+        ranked = self._ranked(text, said, environment)
+        if len(heard) > wanted and _senseless(ranked):
+            said = weighed(near, heard)
+            ranked = self._ranked(text, said, environment)
+        if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
+            ranked = self._otherwise(text, said, environment, translator, wanted) or ranked
+        if not heard and not exact and environment is not None and _senseless(ranked):
+            ranked = ranked if sum(reading.confidence for reading in ranked) > HEARD else ()
         return merged(taught, ranked)[:candidates]
+
+    def _is_question(self, text: str) -> bool:
+        """Whether a text asks what is so: it begins as questions do, and the networks hear no command in it."""
+        said, translator = words(text), self.translator
+        if not said or said[0] not in ASKING or not isinstance(translator, ComposedTranslator):
+            return False
+        return translator.refuses(text) >= QUESTION
+
+    def _told_apart(
+        self,
+        text: str,
+        near: Sequence[Translation],
+        heard: Sequence[Translation],
+        environment: Environment | None,
+        translator: Translator,
+    ) -> tuple[tuple[Translation, ...], tuple[Translation, ...]]:
+        """What a text is near to, and what the networks heard, each as likely as the other leaves it."""
+        assert self.lessons is not None
+        own = self.lessons.own
+        composed = translator if isinstance(translator, ComposedTranslator) else None
+        if not near or composed is None:
+            return tuple(near), tuple(doubted(said, near, own) for said in heard)
+        negated = not NEGATED.isdisjoint(words(text))
+        if negated and not heard:
+            heard = composed.several(text, candidates=BEAM_WIDTH, asked=True)
+        likely = self._likely(text, heard, environment)
+        told = tuple(parted(said, likely, own) for said in near)
+        if negated and told == tuple(near) and composed.forbids(text) >= FORBIDDEN:
+            told = forbidden_too(told)
+        return told, tuple(doubted(said, near, own) for said in heard)
+
+    def _likely(
+        self, text: str, heard: Sequence[Translation], environment: Environment | None
+    ) -> Sequence[Translation]:
+        """What was heard, as it is likely in the environment."""
+        if environment is None:
+            return heard
+        return [Translation(said.query, said.confidence) for said in self._ranked(text, heard, environment)]
 
     def _otherwise(
         self,
@@ -199,40 +231,3 @@ class Hearing:
 def _senseless(readings: Sequence[Reading]) -> bool:
     """Whether a text that is understood, if at all, means nothing in the environment."""
     return all(reading.weight <= SENSELESS for reading in readings)
-
-
-def parted(near: Translation, heard: Sequence[Translation], own: Collection[str] = ()) -> Translation:
-    """A task that is probably a clause of what was heard is hardly all that the text says, the less where it is
-    forbidden; nor is one of the same things as a clause that is the networks' `own`.
-    """
-    said = {task.task for _, task in near.query.tasks}
-    things = {task.arguments for _, task in near.query.tasks}
-    around = sum(
-        translation.confidence
-        for translation in heard
-        if isinstance(translation.query, Composition)
-        and any(t.task in said or (t.task in own and t.arguments in things) for _, t in translation.query.tasks)
-    )
-    return replace(near, confidence=DOUBTED * near.confidence) if around >= AROUND else near
-
-
-def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:
-    """The taught readings that make sense, then the others; just the learned ones where only those do.
-
-    A taught reading that takes a word for misspelt makes less sense than a learned one that takes all as said.
-    """
-    best = learned[0].weight if learned else SENSELESS
-    least = AMBIGUOUS if best == GROUNDED else SENSELESS
-    fitting = [reading for reading in taught if reading.weight >= least and reading.weight > SENSELESS]
-    if not fitting and best > SENSELESS:
-        return tuple(learned)
-    first = _shared(fitting or taught)
-    known = {reading.query for reading in first}
-    rest = [replace(r, confidence=0.0) if first else r for r in learned if r.query not in known]
-    return (*first, *rest)
-
-
-def _shared(readings: Sequence[Reading]) -> list[Reading]:
-    """The readings with confidences that add up to 1; those of no confidence share it when nothing else is left."""
-    total = sum(reading.confidence for reading in readings)
-    return [replace(r, confidence=r.confidence / total if total else 1 / len(readings)) for r in readings]

@@ -31,7 +31,7 @@ _EDGES = (
     "but",
 )
 NO_EDGE = DETERMINERS.union(_EDGES)
-"""Words with which no phrase begins or ends, whatever else they do within one."""
+"""Words with which no phrase begins, and none ends that is not itself a name, such as "shelf a"."""
 
 
 def mentions(said: Words, environment: Environment) -> tuple[tuple[int, int], ...]:
@@ -54,9 +54,15 @@ def _end(said: Words, begin: int, environment: Environment) -> int | None:
     if said[begin] in NO_EDGE:
         return None
     for end in range(min(begin + LONGEST, len(said)), begin, -1):
-        if said[end - 1] not in NO_EDGE and _names(said[begin:end], environment):
+        phrase = said[begin:end]
+        if _names(phrase, environment) if phrase[-1] not in NO_EDGE else _is_name(phrase, environment):
             return end
     return None
+
+
+def _is_name(phrase: Words, environment: Environment) -> bool:
+    """Whether it is an object's name to the letter."""
+    return any(environment.vocabulary.is_object(symbol) for symbol in environment.vocabulary.phrases.called(phrase))
 
 
 def _names(phrase: Words, environment: Environment) -> bool:

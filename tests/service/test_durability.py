@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.server import address, serving, started
 from models.world import toys_spec
-from service.seeds import NEW
+from service.seeds import COMMON, NEW, READ, WORLDS
 from tests.service.conftest import run_cli
 
 
@@ -40,8 +40,15 @@ def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
 
 
 def test_an_older_store_gets_what_is_new_and_keeps_its_own(tmp_path: Path) -> None:
-    """The first tasks get their readings, the worlds their samples; what was deleted or changed stays so."""
+    """The first tasks get their readings, the worlds their samples, the store the common tasks; what was deleted,
+    changed or taught stays so.
+    """
     with serving(tmp_path) as client:
+        common = {task: client.get(f"/templates/{task}").json() for task in ("put_in", "bring")}
+        for task in (*common, "switch_on"):
+            assert client.delete(f"/templates/{task}").status_code == 204
+        mine = {"contextual_query": "switch_on(oven)", "ltl": "G F running(oven)", "environment": "house"}
+        assert client.post("/learn", json=mine).status_code == 201
         ship = client.get("/templates/ship").json()
         spec = {name: client.get(f"/environments/{name}").json()["spec"] for name in ("toys", "navigation")}
         plain = {
@@ -53,11 +60,15 @@ def test_an_older_store_gets_what_is_new_and_keeps_its_own(tmp_path: Path) -> No
             assert client.delete(path).status_code == 204
     with sqlite3.connect(tmp_path / "cqltl.sqlite3") as store:
         store.execute("UPDATE templates SET reading = ''")
-        store.execute("DELETE FROM facts WHERE name IN ('seeds are read in English', 'worlds have samples')")
+        store.execute("DELETE FROM facts WHERE name IN (?, ?, ?)", (READ, WORLDS, COMMON))
     store.close()
     with serving(tmp_path) as client:
         assert client.get("/templates/ship").json() == {**ship, "revision": ship["revision"] + 1}
         assert client.get("/templates/pickup").status_code == 404
+        for task, known in common.items():
+            assert client.get(f"/templates/{task}").json()["template"] == known["template"]
+            assert len(client.get(f"/templates/{task}/examples").json()["items"]) >= 9
+        assert client.get("/templates/switch_on").json()["template"] == "G F running($1)"
         listed = {item["name"]: item["samples"] for item in client.get("/environments").json()["items"]}
         assert set(listed) == {*NEW, "toys", "toys-4x1-cylinder", "navigation"}
         assert client.get("/environments/toys").json()["spec"] == spec["toys"]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, product
+from itertools import combinations, islice, product
+from math import prod
 from typing import Protocol
 
 from models.language.composition.shapes import ONE_CLAUSE
@@ -42,6 +43,10 @@ ALTERNATIVES = 4
 """Readings of one clause that are looked at."""
 MOST = 12
 """Ways to read all clauses together that are looked at."""
+UNLIKE = 0.25
+"""Factor for two clauses of the same verb that are read as unlike tasks, though each may be the other's: whoever says
+"between bay 3 and bay 7" speaks of two places or of two things.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +93,10 @@ def readings(
         else _completed(clause, texts[clause.number], understand)
         for clause in clauses
     ]
-    combined = islice(product(*options), 4 * MOST)
-    ranked = sorted(combined, key=lambda chosen: -_product(chosen))[:MOST]
-    for chosen in ranked:
+    verbs = [_verb(clause, _donor(clauses, place, whole), whole, spoken) for place, clause in enumerate(clauses)]
+    for chosen, likely in _together(options, verbs):
         for queries, share in _resolved(list(zip(clauses, chosen, strict=True))):
-            yield queries, _product(chosen) * share
+            yield queries, likely * share
 
 
 def _spoken(clause: Clause, understand: Understand) -> Sequence[Translation]:
@@ -107,9 +111,7 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
     """Whether a clause only names things: its words are those of its arguments, or it says nothing that is known."""
     if not said:
         return True
-    query = said[0].query
-    assert isinstance(query, ContextualQuery)
-    named = {word for phrase in query.arguments for word in phrase.split()}
+    named = {word for phrase in _task(said[0]).arguments for word in phrase.split()}
     return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
 
 
@@ -132,6 +134,44 @@ def _donor(clauses: Sequence[Clause], place: int, whole: set[int]) -> Clause | N
     before = [clause for clause in clauses[:place] if clause.number in whole]
     after = [clause for clause in clauses[place + 1 :] if clause.number in whole]
     return before[-1] if before else after[0] if after else None
+
+
+def _verb(
+    clause: Clause, donor: Clause | None, whole: set[int], spoken: Mapping[int, Sequence[Translation]]
+) -> tuple[str, ...]:
+    """The words with which a clause says what to do; another's where it has none, none where no clause has any."""
+    own = clause if clause.number in whole else donor
+    if own is None or not spoken[own.number]:
+        return ()
+    named = {word for phrase in _task(spoken[own.number][0]).arguments for word in phrase.split()}
+    return tuple(word for word in own.words if word not in named and word not in DETERMINERS and not is_mark(word))
+
+
+def _together(
+    options: Sequence[Sequence[Translation]], verbs: Sequence[tuple[str, ...]]
+) -> list[tuple[tuple[Translation, ...], float]]:
+    """The likeliest ways to read all clauses with their probabilities, which add up to what they would if the clauses
+    had nothing to do with each other.
+    """
+    alike = [pair for pair in combinations(range(len(verbs)), 2) if verbs[pair[0]] == verbs[pair[1]]]
+    may = [{_task(translation).task for translation in option} for option in options]
+    found: list[tuple[tuple[Translation, ...], float]] = []
+    total = 0.0
+    for chosen in islice(product(*options), 4 * MOST):
+        likely = prod(translation.confidence for translation in chosen)
+        tasks = [_task(translation).task for translation in chosen]
+        unlike = [tasks[i] != tasks[j] and tasks[i] in may[j] and tasks[j] in may[i] for i, j in alike]
+        total += likely
+        found.append((chosen, likely * UNLIKE ** sum(unlike)))
+    scale = total / (sum(likely for _, likely in found) or 1.0)
+    ranked = sorted(found, key=lambda reading: -reading[1])[:MOST]
+    return [(chosen, likely * scale) for chosen, likely in ranked]
+
+
+def _task(translation: Translation) -> ContextualQuery:
+    """What a clause says, which is one task."""
+    assert isinstance(translation.query, ContextualQuery)
+    return translation.query
 
 
 def _completions(
@@ -159,8 +199,8 @@ def _completed(clause: Clause, texts: tuple[tuple[str, ...], str], understand: U
     found: dict[ContextualQuery, float] = {}
     for way, share in zip(ways, SHARES[len(ways)], strict=True):
         for translation in way:
-            assert isinstance(translation.query, ContextualQuery)
-            found[translation.query] = found.get(translation.query, 0.0) + share * translation.confidence
+            query = _task(translation)
+            found[query] = found.get(query, 0.0) + share * translation.confidence
     return [Translation(query, min(1.0, share)) for query, share in found.items()]
 
 
@@ -168,14 +208,11 @@ def _carried(donor: Clause, said: Translation, words: Sequence[str]) -> tuple[st
     """The donor's text with other words for its arguments where these stand together; else, where it is one clause, for
     the first, and for the last: "put the ball in the box", "the cup" or "the bag".
     """
-    assert isinstance(said.query, ContextualQuery)
-    text = donor.words
+    text, arguments = donor.words, _task(said).arguments
     spans = sorted(
-        (at, at + len(phrase.split()))
-        for phrase in said.query.arguments
-        if (at := find(phrase.split(), text)) is not None
+        (at, at + len(phrase.split())) for phrase in arguments if (at := find(phrase.split(), text)) is not None
     )
-    if not spans or len(spans) != len(said.query.arguments):
+    if not spans or len(spans) != len(arguments):
         return ()
     begin, end = spans[0][0], max(end for _, end in spans)
     covered = {place for start, stop in spans for place in range(start, stop)}
@@ -190,8 +227,7 @@ def _resolved(chosen: Sequence[tuple[Clause, Translation]]) -> Iterator[tuple[di
     """The queries by number, with what pronouns stand for; the likeliest first."""
     options: list[tuple[dict[int, ContextualQuery], float, tuple[str, ...], tuple[str, ...]]] = [({}, 1.0, (), ())]
     for clause, translation in chosen:
-        query = translation.query
-        assert isinstance(query, ContextualQuery)
+        query = _task(translation)
         grown = []
         for queries, share, things, places in options:
             for arguments, part in _replaced(query.arguments, things, places):
@@ -221,15 +257,4 @@ def _replaced(
             weights = [LIKELIER, 1 - LIKELIER] if len(known) == 2 else [1.0]
             choices.append(list(zip(known, weights, strict=False)))
     for chosen in product(*choices):
-        yield tuple(argument for argument, _ in chosen), _share([share for _, share in chosen])
-
-
-def _product(chosen: Sequence[Translation]) -> float:
-    return _share([translation.confidence for translation in chosen])
-
-
-def _share(parts: Sequence[float]) -> float:
-    result = 1.0
-    for part in parts:
-        result *= part
-    return result
+        yield tuple(argument for argument, _ in chosen), prod(share for _, share in chosen)

@@ -36,6 +36,8 @@ NAMES = ("composition-0", "composition-1")
 """The networks that read how clauses belong together."""
 SEQUENCE = "then("
 """How the shapes of sequences begin."""
+AVOIDED = "avoid(1)"
+"""The shape of forbidding something."""
 SURE = 0.986
 """Probability of being one task from which the other network is not asked at all."""
 LEAST = 0.02
@@ -129,8 +131,19 @@ class ComposedTranslator:
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if has_several(shape.shape)]
+        if asked:
+            composed = [replace(shape, share=shape.share / max(1.0 - refusal, LEAST)) for shape in composed]
         found = self._weighed((), composed, spoken, SpokenClauses(self.single, self.taught, self.nearby))
         return _ranked(found, 0.0 if asked else refusal, candidates)
+
+    def forbids(self, text: str) -> float:
+        """The probability that a text that asks for something forbids one thing, and asks for nothing else."""
+        shapes, _ = self._shapes(marked_words(text))
+        return _part(shapes, AVOIDED.__eq__)
+
+    def refuses(self, text: str) -> float:
+        """The probability that a text asks for nothing, of whatever task."""
+        return self._shapes(marked_words(text))[1]
 
     def _weighed(
         self,

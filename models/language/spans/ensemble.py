@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from models.language.spans.reader import Read, SpanReader, SpanReading
 from models.language.spans.tags import Span
+
+HELD = 16
+"""Texts that are held."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,6 +22,7 @@ class SpanEnsemble:
     """
 
     readers: Sequence[SpanReader]
+    _held: dict[tuple[str, ...], Read] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if not self.readers:
@@ -31,8 +35,18 @@ class SpanEnsemble:
 
     def read(self, spoken: Sequence[str]) -> Read:
         """The readings of one text that any reader has, by class in the order of the first reader's, each class's best
-        first, and the probability that no class fits.
+        first, and the probability that no class fits. What was read last is held: it is asked for more than once.
         """
+        key = tuple(spoken)
+        read = self._held.get(key)
+        if read is None:
+            read = self._read(key)
+            if len(self._held) >= HELD:
+                self._held.clear()
+            self._held[key] = read
+        return read
+
+    def _read(self, spoken: Sequence[str]) -> Read:
         share = 1 / len(self.readers)
         found: dict[tuple[str, tuple[tuple[Span, ...], ...]], SpanReading] = {}
         refusal = 0.0

@@ -2,9 +2,10 @@
 
 from models.language.teaching.arguments import find_arguments
 from models.language.teaching.utterance import ExampleArgumentNotFoundError, ExampleMarkError, Utterance, is_marked
-from models.language.teaching.wording import ExampleTooGeneralError, TaughtTranslator, Wording
+from models.language.teaching.wording import INTERROGATIVES, ExampleTooGeneralError, TaughtTranslator, Wording
 
 __all__ = [
+    "INTERROGATIVES",
     "ExampleArgumentNotFoundError",
     "ExampleMarkError",
     "ExampleTooGeneralError",

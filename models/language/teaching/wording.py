@@ -24,6 +24,8 @@ MAX_TOTAL_STEPS = 200_000
 """Most comparisons for one command; wordings after that, the least literal ones, are not tried."""
 CONNECTIVES = frozenset({"and", "then", "or", "but", "until", "before", "after", "while", "unless"})
 """Never within a phrase: what follows one of them is another clause."""
+INTERROGATIVES = frozenset({"what", "who", "whom", "whose", "where", "why", "how", "which"})
+"""No phrase begins with one: "what is in the box" asks, and orders nothing."""
 
 Slot = int
 Element = str | Slot
@@ -107,7 +109,9 @@ class Wording:
         lengths = range(1, MAX_SLOT_WORDS + 1) if known is None else (len(known),)
         for start, length in product(starts, lengths):
             phrase = spoken[start : start + length]
-            if len(phrase) == length and known in (None, phrase) and CONNECTIVES.isdisjoint(phrase):
+            if len(phrase) < length or phrase[0] in INTERROGATIVES:
+                continue
+            if known in (None, phrase) and CONNECTIVES.isdisjoint(phrase):
                 yield from self._fill(spoken, start + length, element + 1, {**filled, expected: phrase}, budget)
 
 

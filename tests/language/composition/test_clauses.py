@@ -154,3 +154,25 @@ def test_a_bare_name_has_the_verb_right_before_it() -> None:
     (first, *others) = readings(clauses, understand)
     assert [str(query) for query in first[0].values()] == ["pickup(ball)", "go(zoo)"]
     assert others == []
+
+
+def test_what_is_said_with_one_verb_is_rather_of_one_kind() -> None:
+    """By hand: 0.2, 0.25, 0.2 and 0.25, of which the middle ones count a quarter, scaled to add up to 0.9 again."""
+
+    class Doubtful(Table):
+        def __call__(self, text: str, /) -> list[Translation]:
+            shares = {"go to bay three": (0.5, 0.5), "go to bay seven": (0.4, 0.5), "see bay seven": (0.4, 0.5)}
+            tasks = zip(("visit", "approach"), shares.get(text, ()), strict=False)
+            return [Translation(parse_task(f"{task}({text[-9:].strip()})"), share) for task, share in tasks]
+
+    def shares(*texts: str) -> dict[tuple[str, ...], float]:
+        clauses = [Clause(number, tuple(text.split()), False) for number, text in enumerate(texts)]
+        return {tuple(query.task for query in said.values()): share for said, share in readings(clauses, Doubtful())}
+
+    assert shares("go to bay three", "go to bay seven") == {
+        ("visit", "visit"): pytest.approx(0.32),
+        ("visit", "approach"): pytest.approx(0.1),
+        ("approach", "visit"): pytest.approx(0.08),
+        ("approach", "approach"): pytest.approx(0.4),
+    }
+    assert shares("go to bay three", "see bay seven")["visit", "approach"] == pytest.approx(0.25), "another verb"

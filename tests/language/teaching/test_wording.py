@@ -53,6 +53,14 @@ def reads(utterance: str, query: str, command: str) -> str | None:
         # nothing to fill
         ("go home", "home()", "Go home.", "home()"),
         ("go home", "home()", "go home now", None),
+        # a question names nothing
+        ("the ball is in the box", "stow(ball, box)", "what is in the crate", None),
+        (
+            "the ball is in the box",
+            "stow(ball, box)",
+            "the red one which i like is in the crate",
+            "stow(red one which i like, crate)",
+        ),
         # another clause is not part of a phrase
         ("get the ball", "get(ball)", "get the ball and put it in the box", None),
     ],
