@@ -28,6 +28,8 @@ WIDER = 16
 """Readings of the networks that are looked at where the likeliest mean nothing in the environment: with several tasks,
 each said of a place or of a thing, the one that makes sense may be far down.
 """
+CERTAIN = 0.98
+"""Confidence of a reading of the networks from which it is not compared with what was taught."""
 HEARD = 0.5
 """Probability of any taught task from which one is heard."""
 HEARD_OF_THINGS = 0.03
@@ -150,13 +152,15 @@ class Hearing:
         heard = translator.translate(text, candidates=wanted if environment is None else WIDER)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
         sensible = bool(exact) if environment is None else not _senseless(taught)
+        said: Sequence[Translation] = heard[:wanted]
+        ranked = self._ranked(text, said, environment)
         near: tuple[Translation, ...] = ()
-        if not sensible:
+        if not sensible and not _certain(ranked):
             if not self._is_question(text):
                 near = lessons.near(text, candidates=MATCHED, environment=environment)
             near, heard = self._told_apart(text, near, heard, environment, translator)
-        said = weighed(near, heard[:wanted])
-        ranked = self._ranked(text, said, environment)
+            said = weighed(near, heard[:wanted])
+            ranked = self._ranked(text, said, environment)
         if len(heard) > wanted and _senseless(ranked):
             said = weighed(near, heard)
             ranked = self._ranked(text, said, environment)
@@ -190,19 +194,12 @@ class Hearing:
         negated = not NEGATED.isdisjoint(words(text))
         if negated and not heard:
             heard = composed.several(text, candidates=BEAM_WIDTH, asked=True)
-        likely = self._likely(text, heard, environment)
+        sensible = self._ranked(text, heard, environment)
+        likely = [Translation(reading.query, reading.confidence) for reading in sensible]
         told = tuple(parted(said, likely, own) for said in near)
         if negated and told == tuple(near) and composed.forbids(text) >= FORBIDDEN:
             told = forbidden_too(told)
         return told, tuple(doubted(said, near, own) for said in heard)
-
-    def _likely(
-        self, text: str, heard: Sequence[Translation], environment: Environment | None
-    ) -> Sequence[Translation]:
-        """What was heard, as it is likely in the environment."""
-        if environment is None:
-            return heard
-        return [Translation(said.query, said.confidence) for said in self._ranked(text, heard, environment)]
 
     def _otherwise(
         self,
@@ -226,6 +223,11 @@ class Hearing:
         self, text: str, translations: Sequence[Translation], environment: Environment | None
     ) -> tuple[Reading, ...]:
         return rank(text, translations, template_of=self.template_of, environment=environment)
+
+
+def _certain(readings: Sequence[Reading]) -> bool:
+    """Whether a reading is so sure, and makes sense, that nothing that was taught would be believed more."""
+    return bool(readings) and readings[0].weight > SENSELESS and readings[0].confidence >= CERTAIN
 
 
 def _senseless(readings: Sequence[Reading]) -> bool:

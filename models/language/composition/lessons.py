@@ -14,6 +14,7 @@ from functools import cache
 from itertools import chain
 from typing import Literal, Self
 
+from models.language.composition.labels import BARE, Told
 from models.language.composition.shapes import ONE_CLAUSE, SINGLE, read_shape
 from models.language.dataset import frames, no_task
 from models.language.dataset.asides import asides, drawn, remark
@@ -26,7 +27,7 @@ from models.language.spans.tags import Span
 from models.language.spans.training import Settings
 from models.language.tokens import is_punctuation, marked_words
 
-SETTINGS = Settings(epochs=16, batch=40, embedding=32, encoder=192, dropout=0.2)
+SETTINGS = Settings(epochs=24, batch=40, embedding=32, encoder=192, dropout=0.2, hide_frame=0.35)
 """How the network is fitted."""
 EACH, ALONE, NONE = 100, 1700, 1000
 """Texts of a composition on average, of one command alone, and of no command, in an epoch."""
@@ -45,7 +46,7 @@ LOST = 0.15
 _REPEATED = ("object", "place", "container")
 PLACE_KINDS = ("location", "first")
 """Rooms, and landmarks of a city."""
-FRAMED, MISSPELLED, HASTY, PRONOUN = 0.25, 0.18, 0.07, 0.35
+FRAMED, MISSPELLED, HASTY, PRONOUN = 0.35, 0.18, 0.07, 0.35
 """Parts of the texts with something polite around them, with typing mistakes, with several, and pronouns for what was
 named before.
 """
@@ -53,8 +54,6 @@ REASON, ASIDE, PURPOSE = 0.07, 0.08, 0.06
 """Parts of the texts with a reason in front, and behind; of the clauses with something said beside them; and of the
 places that are visited for something.
 """
-LABELLED, BARE = 0.08, 0.8
-"""Part of the names that end in a letter or number, "shelf b", "gate 12", and part of these without an article."""
 REMARKS = 150
 """Reasons without a command in an epoch."""
 
@@ -113,7 +112,7 @@ class CompositionLessons:
             alone = Item(item.text, SINGLE, (((before, len(item.text) - after),),), item.frame)
             return self._reasoned(alone, generator)
         leaf = generator.choice(leaves())
-        text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, {})
+        text = self._said(leaf, "do" if generator.random() < 0.9 else "state", generator, Told.drawn(generator))
         item = Item(tuple(text), SINGLE, (((0, len(text)),),))
         return self._reasoned(self._framed(item, "do", generator), generator)
 
@@ -126,7 +125,7 @@ class CompositionLessons:
         keeps = 0.0 if generator.random() < UNMARKED else 1.0 - LOST
         text: list[str] = []
         mentions: list[tuple[Span, ...]] = [()] * len({hole.leaf for hole in pattern.holes})
-        earlier: dict[str, bool] = {}
+        told = Told.drawn(generator)
         heard: dict[int, list[str]] = {}
         for element in pattern.elements:
             if isinstance(element, str):
@@ -136,7 +135,7 @@ class CompositionLessons:
             if element.form == "echo":
                 text += heard[element.leaf]
                 continue
-            said = self._said(chosen[element.leaf], element.form, generator, earlier)
+            said = self._said(chosen[element.leaf], element.form, generator, told)
             if text and text[-1] == "no" and said[0] in DETERMINERS:
                 said = said[1:]
             mentions[element.leaf - 1] += ((len(text), len(text) + len(said)),)
@@ -148,12 +147,12 @@ class CompositionLessons:
         framed = self._framed(item, first.form if isinstance(first, Hole) else "it", generator)
         return self._reasoned(framed, generator)
 
-    def _said(self, leaf: Leaf, form: Form, generator: random.Random, earlier: dict[str, bool]) -> list[str]:
+    def _said(self, leaf: Leaf, form: Form, generator: random.Random, told: Told) -> list[str]:
         """The words of a clause; what was named before may be a pronoun."""
         if form == "it":
             slot = leaf.target or leaf.slots[-1]
-            earlier[slot] = True
-            return self._phrase(slot, generator)
+            told.named.add(slot)
+            return self._phrase(slot, generator, told)
         text = leaf.forms.get(form) or leaf.pieces.get(form) or leaf.do
         said: list[str] = []
         previous = ""
@@ -163,14 +162,14 @@ class CompositionLessons:
                 continue
             (slot,) = element
             may_be_pronoun = previous != "color" and (form, slot) != ("subject", "place")
-            if may_be_pronoun and earlier.get(slot) and slot in _REPEATED and generator.random() < PRONOUN:
+            if may_be_pronoun and slot in told.named and slot in _REPEATED and generator.random() < PRONOUN:
                 there = slot == "place" and said and said[-1] in ("to", "at", "in")
                 if there:
                     said.pop()
                 said.append("there" if slot == "place" else "it")
             else:
-                said += self._phrase(slot, generator, bare=previous == "color")
-            earlier[slot] = True
+                said += self._phrase(slot, generator, told, bare=previous == "color")
+            told.named.add(slot)
             previous = slot
         return said
 
@@ -219,11 +218,13 @@ class CompositionLessons:
                 text.append(word)
         return Item(tuple(text))
 
-    def _phrase(self, slot: str, generator: random.Random, *, bare: bool = False) -> list[str]:
+    def _phrase(
+        self, slot: str, generator: random.Random, told: Told | None = None, *, bare: bool = False
+    ) -> list[str]:
         kind = generator.choice(PLACE_KINDS) if slot == "place" else CLAUSE_SLOTS[slot]
         name, article = self.single.names.draw(kind, generator), not bare
-        if slot != "color" and generator.random() < LABELLED:
-            name, article = (*name[-1:], _label(generator)), article and generator.random() > BARE
+        if told is not None and told.labels(slot, generator):
+            name, article = told.labelled(name[-1], slot, generator), article and generator.random() > BARE
         elif article and slot != "color" and generator.random() < REFERRED:
             name, article = self.single.refer(name, kind, False, generator)
         determiner = generator.choice(DETERMINERS) if article else ""
@@ -257,12 +258,6 @@ def _leaves(pattern: Pattern, generator: random.Random) -> Mapping[int, Leaf]:
 def _said_as(form: Form) -> Sequence[Leaf]:
     """The clauses that have a form."""
     return [leaf for leaf in leaves() if form == "it" or form in leaf.forms or form in leaf.pieces]
-
-
-def _label(generator: random.Random) -> str:
-    """What tells one of several of a kind: a letter, a number, or both."""
-    letter, number = generator.choice("aaabbbccddefghkx"), str(generator.choice((generator.randint(1, 9), 10, 12, 42)))
-    return generator.choice((letter, letter, number, number, letter + number, number + letter))
 
 
 @cache

@@ -1,0 +1,80 @@
+"""What a service that was just set up hears, in its own worlds: networks, common tasks, and environment together."""
+
+from __future__ import annotations
+
+import pytest
+
+from benchmarks.language import Bench
+from models.logic import Op, Unary
+from models.logic import to_text as formula_text
+
+
+@pytest.fixture(scope="module")
+def bench() -> Bench:
+    return Bench.load()
+
+
+def heard(bench: Bench, world: str, text: str) -> list[str]:
+    """The formulas of the readings, best first; a dash for what means nothing there."""
+    readings = bench.hearing.readings(text, bench.environments[world], candidates=2)
+    return ["-" if reading.grounded is None else formula_text(reading.grounded.formula) for reading in readings]
+
+
+@pytest.mark.parametrize(
+    ("world", "text", "formula"),
+    [
+        ("toys", "put the ball in the box", "F in(sphere, box)"),
+        ("toys", "put the ball in the kitchen", "F at(sphere, kitchen)"),
+        ("toys", "bring the ball to the box", "F in(sphere, box)"),
+        ("toys", "grab the green ball, then put it in the crate", None),
+        ("house", "turn the washing machine off", "F !running(washing_machine)"),
+        ("house", "put the cup down in the bedroom", "F at(cup, bedroom)"),
+        ("warehouse", "place the small parcel on shelf a", "F in(red_parcel, shelf_a)"),
+        ("warehouse", "put the blue parcel back on shelf c", "F in(blue_parcel, shelf_c)"),
+        ("warehouse", "go to shelf b and never go to shelf a", "F near(robot, shelf_b) & G !near(robot, shelf_a)"),
+        ("warehouse", "keep going between shelf a and shelf b", "G (F near(robot, shelf_a) & F near(robot, shelf_b))"),
+    ],
+)
+def test_what_is_said_in_a_world(bench: Bench, world: str, text: str, formula: str | None) -> None:
+    expected = formula or "F (holding(sphere) & colored(sphere, green) & F in(sphere, box))"
+    assert heard(bench, world, text)[0] == expected
+
+
+@pytest.mark.parametrize(
+    ("world", "text"),
+    [
+        ("toys", "don't put the ball in the box"),
+        ("toys", "under no circumstances put the orange in the crate"),
+        ("toys", "never let the ball end up in the box"),
+        ("house", "do not switch on the oven"),
+    ],
+)
+def test_what_is_forbidden_is_not_done(bench: Bench, world: str, text: str) -> None:
+    (best, *_) = bench.hearing.readings(text, bench.environments[world], candidates=1)
+    assert best.grounded is not None
+    formula = best.grounded.formula
+    assert isinstance(formula, Unary)
+    assert formula.op is Op.GLOBALLY
+    assert isinstance(formula.operand, Unary)
+    assert formula.operand.op is Op.NOT
+
+
+def test_what_may_be_forbidden_is_asked_about(bench: Bench) -> None:
+    found = bench.hearing.readings(
+        "the ball must never be allowed into the crate", bench.environments["toys"], candidates=2
+    )
+    assert {str(reading.query) for reading in found} == {"put_in(ball, crate)", "avoid(put_in(ball, crate))"}
+    assert found[0].confidence == pytest.approx(found[1].confidence)
+
+
+@pytest.mark.parametrize(
+    ("world", "text"),
+    [
+        ("toys", "is the ball in the kitchen"),
+        ("toys", "what is in the box"),
+        ("house", "was the towel put in the basket"),
+        ("house", "bring me the cup"),  # near to switching it on, which means nothing there
+    ],
+)
+def test_what_asks_for_nothing_known(bench: Bench, world: str, text: str) -> None:
+    assert heard(bench, world, text) == []
