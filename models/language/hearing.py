@@ -15,12 +15,12 @@ from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
 from models.language.reading import SENSELESS, Reading, rank, read
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
-from models.language.tokens import words
+from models.language.tokens import is_mark, marked_words, words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
 from models.language.trimming import trimmed
 from models.language.weighing import doubted, forbidden_too, merged, parted
 from models.queries import Template
-from models.world import Environment, mentions
+from models.world import Environment, mentions, speaks_of_others
 
 MATCHED = 12
 """Readings by nearness that are looked at: the environment may make sense of a later one only."""
@@ -151,7 +151,7 @@ class Hearing:
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted if environment is None else WIDER)
         taught = read(text, exact, template_of=self.template_of, environment=environment)
-        sensible = bool(exact) if environment is None else not _senseless(taught)
+        sensible = bool(exact) and (environment is None or not _misheard(taught, environment))
         said: Sequence[Translation] = heard[:wanted]
         ranked = self._ranked(text, said, environment)
         near: tuple[Translation, ...] = ()
@@ -171,9 +171,13 @@ class Hearing:
         return merged(taught, ranked)[:candidates]
 
     def _is_question(self, text: str) -> bool:
-        """Whether a text asks what is so: it begins as questions do, and the networks hear no command in it."""
-        said, translator = words(text), self.translator
+        """Whether a text asks what is so: it begins as questions do, nothing follows the question, and the networks
+        hear no command in it.
+        """
+        said, translator = marked_words(text), self.translator
         if not said or said[0] not in ASKING or not isinstance(translator, ComposedTranslator):
+            return False
+        if any(is_mark(word) for word in said[:-1]):
             return False
         return translator.refuses(text) >= QUESTION
 
@@ -223,6 +227,14 @@ class Hearing:
         self, text: str, translations: Sequence[Translation], environment: Environment | None
     ) -> tuple[Reading, ...]:
         return rank(text, translations, template_of=self.template_of, environment=environment)
+
+
+def _misheard(taught: Sequence[Reading], environment: Environment) -> bool:
+    """Whether no wording that was taught makes sense with what stands in its places, for a word that is no name there:
+    "put the cup down in the bedroom". Of a thing that is only somewhere else, there is none to be heard.
+    """
+    phrases = [phrase for reading in taught for _, task in reading.query.tasks for phrase in task.arguments]
+    return _senseless(taught) and not any(speaks_of_others(phrase, environment) for phrase in phrases)
 
 
 def _certain(readings: Sequence[Reading]) -> bool:

@@ -11,6 +11,8 @@ from models.queries import Composition, ContextualQuery, Operator
 
 DOUBTED = 0.3
 """What is left of the probability of a composition around one taught task."""
+MEANT = 0.55
+"""Share of a task that is near to a text that seems to forbid something; the rest is to forbid it."""
 AROUND = 0.5
 """Probability of the compositions around a task from which it is not taken for the whole."""
 
@@ -30,26 +32,40 @@ def doubted(heard: Translation, near: Sequence[Translation], own: Collection[str
 
 def parted(near: Translation, heard: Sequence[Translation], own: Collection[str] = ()) -> Translation:
     """A task that is probably a clause of what was heard is hardly all that the text says, the less where it is
-    forbidden; nor is one of the same things as a clause that is the networks' `own`.
+    forbidden; nor is one of the same things as a clause that is the networks' `own`, or of what several such clauses
+    name: whoever says "pick up the cup, then go to the kitchen" says more than to bring it there.
     """
     said = {task.task for _, task in near.query.tasks}
     things = {task.arguments for _, task in near.query.tasks}
+    named = _words(near)
     around = sum(
         translation.confidence
         for translation in heard
         if isinstance(translation.query, Composition)
-        and any(t.task in said or (t.task in own and t.arguments in things) for _, t in translation.query.tasks)
+        and (
+            any(t.task in said or (t.task in own and t.arguments in things) for _, t in translation.query.tasks)
+            or _says_all(translation, named, own)
+        )
     )
     return replace(near, confidence=DOUBTED * near.confidence) if around >= AROUND else near
 
 
+def _says_all(heard: Translation, named: Collection[str], own: Collection[str]) -> bool:
+    """Whether several clauses that the networks know speak of all that is named."""
+    tasks = [task.task for _, task in heard.query.tasks]
+    return len(tasks) > 1 and all(task in own for task in tasks) and _words(heard).issuperset(named)
+
+
+def _words(said: Translation) -> set[str]:
+    return {word for _, task in said.query.tasks for phrase in task.arguments for word in phrase.split()}
+
+
 def forbidden_too(near: Sequence[Translation]) -> tuple[Translation, ...]:
-    """What is near to a text that seems to forbid something: as likely it is that which is forbidden, so that it has to
-    be asked: "the ball must never be allowed into the crate". To be near tells not which: "do not let it dry out".
+    """What is near to a text that seems to forbid something: nearly as likely it is that which is forbidden, so that it
+    has to be asked: "the ball must never get into the crate". To be near tells not which: "do not let it dry out".
     """
-    halves = [replace(said, confidence=said.confidence / 2) for said in near]
-    avoided = [replace(half, query=Composition(Operator.AVOID, (half.query,))) for half in halves]
-    return tuple(half for pair in zip(halves, avoided, strict=True) for half in pair)
+    avoided = [Translation(Composition(Operator.AVOID, (t.query,)), (1 - MEANT) * t.confidence) for t in near]
+    return (*(replace(said, confidence=MEANT * said.confidence) for said in near), *avoided)
 
 
 def merged(taught: Sequence[Reading], learned: Sequence[Reading]) -> tuple[Reading, ...]:

@@ -7,6 +7,7 @@ import pytest
 from benchmarks.language import Bench
 from models.logic import Op, Unary
 from models.logic import to_text as formula_text
+from service.questions import CLOSE
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +27,11 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
         ("toys", "put the ball in the box", "F in(sphere, box)"),
         ("toys", "put the ball in the kitchen", "F at(sphere, kitchen)"),
         ("toys", "bring the ball to the box", "F in(sphere, box)"),
+        (
+            "house",
+            "pick up the red cup, then go to the kitchen",
+            "F (holding(cup) & colored(cup, red) & F at(robot, kitchen))",
+        ),
         ("toys", "grab the green ball, then put it in the crate", None),
         ("house", "turn the washing machine off", "F !running(washing_machine)"),
         ("house", "put the cup down in the bedroom", "F at(cup, bedroom)"),
@@ -44,7 +50,7 @@ def test_what_is_said_in_a_world(bench: Bench, world: str, text: str, formula: s
     ("world", "text"),
     [
         ("toys", "don't put the ball in the box"),
-        ("toys", "under no circumstances put the orange in the crate"),
+        ("toys", "the ball must never be allowed into the crate"),
         ("toys", "never let the ball end up in the box"),
         ("house", "do not switch on the oven"),
     ],
@@ -60,11 +66,10 @@ def test_what_is_forbidden_is_not_done(bench: Bench, world: str, text: str) -> N
 
 
 def test_what_may_be_forbidden_is_asked_about(bench: Bench) -> None:
-    found = bench.hearing.readings(
-        "the ball must never be allowed into the crate", bench.environments["toys"], candidates=2
-    )
-    assert {str(reading.query) for reading in found} == {"put_in(ball, crate)", "avoid(put_in(ball, crate))"}
-    assert found[0].confidence == pytest.approx(found[1].confidence)
+    text = "under no circumstances put the orange in the crate"
+    found = bench.hearing.readings(text, bench.environments["toys"], candidates=2)
+    assert {str(reading.query) for reading in found} == {"put_in(orange, crate)", "avoid(put_in(orange, crate))"}
+    assert found[1].confidence >= CLOSE * found[0].confidence
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from models.language import Translation
 from models.language.weighing import DOUBTED, doubted, forbidden_too, parted
 from models.queries import Composition, ContextualQuery, Operator, Query
@@ -49,11 +51,18 @@ def test_what_the_networks_know_is_not_doubted() -> None:
         assert doubted(heard, (), {"own"}) == heard
 
 
-def test_what_seems_forbidden_is_as_likely_what_is_asked_for() -> None:
+def test_what_seems_forbidden_is_nearly_as_likely_as_what_is_asked_for() -> None:
     """ "The ball must never be allowed into the crate" is near to putting it there."""
-    assert forbidden_too([Translation(A, 0.8), Translation(B, 0.1)]) == (
-        Translation(A, 0.4),
-        Translation(avoid(A), 0.4),
-        Translation(B, 0.05),
-        Translation(avoid(B), 0.05),
-    )
+    found = {said.query: said.confidence for said in forbidden_too([Translation(A, 0.8), Translation(B, 0.1)])}
+    assert found == pytest.approx({A: 0.44, avoid(A): 0.36, B: 0.055, avoid(B): 0.045})
+
+
+def test_several_clauses_that_speak_of_all_things_say_more_than_one_task() -> None:
+    """ "Pick up the red cup, then go to the kitchen" is near to bringing it there."""
+    near = Translation(ContextualQuery("bring", ("red cup", "kitchen")), 0.8)
+    clauses = ContextualQuery("pickup", ("cup", "red")), ContextualQuery("go", ("kitchen",))
+    heard = Translation(Composition(Operator.THEN, clauses), 0.9)
+    assert parted(near, (heard,), {"pickup", "go"}).confidence == DOUBTED * 0.8
+    assert parted(near, (heard,), {"pickup"}) == near, "a clause is a task that was taught"
+    alone = Translation(Composition(Operator.AVOID, clauses[:1]), 0.9)
+    assert parted(near, (alone,), {"pickup", "go"}) == near, "nothing is said of the kitchen"

@@ -104,7 +104,7 @@ def test_what_makes_sense_in_the_environment_comes_first(services: Services, net
 def test_more_readings_are_weighed_than_are_asked_for(services: Services, network: Said) -> None:
     network.readings = readings(("visit(sphere)", 0.6), ("fetch(sphere)", 0.3))
     assert [query for query, _ in understood(services, "go to the sphere", candidates=1)] == ["fetch(sphere)"]
-    assert network.asked == BEAM_WIDTH
+    assert network.asked > BEAM_WIDTH
     assert understood(services, "go to the sphere", None, candidates=1) == [("visit(sphere)", 0.6)]
     assert network.asked == 1
 

@@ -131,8 +131,6 @@ class ComposedTranslator:
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if has_several(shape.shape)]
-        if asked:
-            composed = [replace(shape, share=shape.share / max(1.0 - refusal, LEAST)) for shape in composed]
         found = self._weighed((), composed, spoken, SpokenClauses(self.single, self.taught, self.nearby))
         return _ranked(found, 0.0 if asked else refusal, candidates)
 

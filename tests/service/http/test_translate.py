@@ -185,11 +185,11 @@ def test_the_other_meanings_of_avoid_are_offered(client: httpx.Client) -> None:
 
 
 def test_taught_tasks_are_clauses_too(client: httpx.Client) -> None:
-    pair = {"contextual_query": "stow(sphere, box)", "ltl": "F in(sphere, box)", "environment": "toys"}
+    pair = {"contextual_query": "stow_away(sphere, box)", "ltl": "F in(sphere, box)", "environment": "toys"}
     client.post("/learn", json={**pair, "examples": ["stow the sphere in the box"]}).raise_for_status()
     body = {"text": "pick up the cylinder and then stow it in the crate", "environment": "toys"}
     answer = client.post("/translate", json=body).json()
-    assert answer["contextual_query"]["text"] == "then(pickup(cylinder), stow(cylinder, crate))"
+    assert answer["contextual_query"]["text"] == "then(pickup(cylinder), stow_away(cylinder, crate))"
     assert answer["ltl"] == "F (holding(cylinder) & F in(cylinder, box))"
 
 
