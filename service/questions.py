@@ -19,7 +19,7 @@ from models.queries import (
     parameter_kinds,
     pointer_of,
 )
-from models.world import Environment, Symbol, UnknownObjectError, explain, speaks_of_others
+from models.world import Environment, Symbol, UnknownObjectError, speaks_of_others
 from service.errors import AnswerError
 from service.taught import Taught
 from service.understanding import Understanding, of_reading
@@ -28,6 +28,10 @@ CLOSE = 0.6
 """A reading that is as probable as this part of the likeliest may be meant as well."""
 DOUBTFUL = 0.25
 """A reading that is less probable than this is asked about, whatever else may be meant."""
+DOUBTFUL_NEAR = 0.5
+"""The same for a task that was taught with examples: where as many commands say tasks that nobody taught as such that
+somebody did, what is near with less is wrong more often than right (`benchmarks.teaching --untaught`).
+"""
 MAX_CHOICES = 20
 """Most choices of a question; what fits more things is asked without naming any."""
 
@@ -71,7 +75,7 @@ def question_of(readings: Sequence[Understanding], taught: Taught, environment: 
         return _which(best.refusal, environment)
     if isinstance(best.refusal, UnknownObjectError):
         return _called(best, best.refusal, taught, environment)
-    return _either(readings, environment)
+    return _either(readings, taught, environment)
 
 
 def answered(
@@ -139,23 +143,30 @@ def _called(
     return Question("thing", f'what is "{task.arguments[argument - 1]}"?', tuple(choices), tuple(says), part, argument)
 
 
-def _either(readings: Sequence[Understanding], environment: Environment) -> Question | None:
+def _either(readings: Sequence[Understanding], taught: Taught, environment: Environment) -> Question | None:
     """Which of the readings that are nearly as probable as the first and mean something else; or whether any of the
     readings that make sense is meant, where the first is hardly probable.
     """
     best = readings[0]
     if best.meaning is None:
         return None
-    doubtful = best.confidence < DOUBTFUL
-    formulas = {best.meaning.formula: best}
+    doubtful = best.confidence < _least(best, taught)
+    meant = {best.meaning.formula: (best.query, best.meaning)}
     for reading in readings[1:]:
         if reading.meaning is not None and (doubtful or reading.confidence >= CLOSE * best.confidence > 0):
-            formulas.setdefault(reading.meaning.formula, reading)
-    says = tuple(explain(formula, environment) for formula in formulas)
-    if any(reading.query is None for reading in formulas.values()) or (len(set(says)) < 2 and not doubtful):
+            meant.setdefault(reading.meaning.formula, (reading.query, reading.meaning))
+    says = tuple(meaning.explanation(environment) for _, meaning in meant.values())
+    if any(query is None for query, _ in meant.values()) or (len(set(says)) < 2 and not doubtful):
         return None
-    choices = tuple(str(reading.query) for reading in formulas.values())
+    choices = tuple(str(query) for query, _ in meant.values())
     return Question("reading", f"do you mean: {'; or: '.join(says)}?", choices, says)
+
+
+def _least(reading: Understanding, taught: Taught) -> float:
+    """The probability from which a reading is not asked about."""
+    query = reading.query
+    stored = taught.stored.get(query.task) if isinstance(query, ContextualQuery) else None
+    return DOUBTFUL if stored is None or not stored.examples else DOUBTFUL_NEAR
 
 
 def _things(template: Template, argument: int, environment: Environment) -> list[Symbol]:

@@ -232,7 +232,7 @@ def _resolved(chosen: Sequence[tuple[Clause, Translation]]) -> Iterator[tuple[di
         for queries, share, things, places in options:
             for arguments, part in _replaced(query.arguments, things, places):
                 made = ContextualQuery(query.task, arguments)
-                focus, named = arguments[:1], tuple(a for a in arguments[::-1] if a not in places)
+                focus, named = _focus(clause, arguments), tuple(a for a in arguments[::-1] if a not in places)
                 if clause.forbidden:  # "don't go to the lab until you have been there" is not about the lab
                     said = ((*things, *focus), (*places, *named))
                 else:
@@ -241,6 +241,13 @@ def _resolved(chosen: Sequence[tuple[Clause, Translation]]) -> Iterator[tuple[di
         options = sorted(grown, key=lambda option: -option[1])[:4]
     for queries, share, _, _ in options:
         yield queries, share
+
+
+def _focus(clause: Clause, arguments: Sequence[str]) -> tuple[str, ...]:
+    """What a clause is about, as it was said: of `pickup_colored(ball, red)` the red ball."""
+    said = " ".join(clause.words)
+    described = (f"{other} {arguments[0]}" for other in arguments[1:])
+    return tuple([phrase for phrase in described if phrase in said][:1] or arguments[:1])
 
 
 def _replaced(

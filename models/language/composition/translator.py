@@ -46,6 +46,10 @@ LEAST_SHARE = 0.1
 """Nor those that are less probable than this share of the likeliest."""
 UNDERSTOOD = 0.2
 """Compositions that are less probable together than this are not read."""
+SPLITTING = 0.1
+"""Probability that a text which says one task that is not known also falls into clauses that are: "go to the kitchen
+and pick up the ball" is hardly one task.
+"""
 APART = 0.7
 """Share of the readings of each clause by itself, where two of them may also be one task."""
 JOINING = frozenset({"and", "then", "but", "or"})
@@ -151,7 +155,7 @@ class ComposedTranslator:
         understand: Understand,
     ) -> dict[Query, float]:
         """The queries that the shapes give, and those of the text as one task, with their probabilities."""
-        one_task, alone = understood(whole), 0.0
+        one_task, alone, unexplained = understood(whole), 0.0, 0.0
         found: dict[Query, float] = {}
         for arranged in shapes:
             sequence = arranged.shape.startswith(SEQUENCE)
@@ -160,10 +164,12 @@ class ComposedTranslator:
             # What cannot be read together may still be one task, and a sequence that is one task is rather that.
             single = 1.0 if not read else one_task if sequence else 0.0
             alone += single * arranged.share
+            unexplained += (1.0 - one_task) * arranged.share if arranged.shape == SINGLE else 0.0
             for query, part in read.items():
                 found[query] = found.get(query, 0.0) + (1.0 - single) * arranged.share * part
-        if sum(found.values()) <= UNDERSTOOD:
-            found = {}
+        several = sum(found.values())
+        scale = (several + unexplained) / (several + SPLITTING * unexplained or 1.0)
+        found = {query: part * scale for query, part in found.items()} if scale * several > UNDERSTOOD else {}
         if one_task >= CERTAIN:
             found, alone = voted(found, alone, one_task)
         for translation in whole:

@@ -31,6 +31,7 @@ SAYS = {
     "put the ball in the bag": ["put(ball, bag)"],
     "put the ball in the blue bag": ["put(ball, blue bag)"],
     "lift one of them": ["pickup(one)"],
+    "grab the red ball": ["grab(ball, red)"],
 }
 
 
@@ -154,6 +155,10 @@ def test_a_bare_name_has_the_verb_right_before_it() -> None:
     (first, *others) = readings(clauses, understand)
     assert [str(query) for query in first[0].values()] == ["pickup(ball)", "go(zoo)"]
     assert others == []
+
+
+def test_a_pronoun_stands_for_a_thing_with_what_describes_it() -> None:
+    assert read("grab the red ball", "put it in the box")[0][0] == ["grab(ball, red)", "put(red ball, box)"]
 
 
 def test_what_is_said_with_one_verb_is_rather_of_one_kind() -> None:
