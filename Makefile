@@ -79,6 +79,7 @@ bench-language: $(VENV)/.dev  # commands in people's own words
 
 bench-teaching: $(VENV)/.dev  # tasks taught with one example, and with five
 	$(BIN)/python -m benchmarks.teaching --draws 2
+	$(BIN)/python -m benchmarks.teaching --untaught
 
 bench-planning: $(VENV)/.dev  # against other planners; about half an hour
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'

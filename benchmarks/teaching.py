@@ -1,11 +1,14 @@
 """How well tasks are understood that were taught with one example, or with five.
 
-    python -m benchmarks.teaching [--part development|held-out|both] [--draws 3] [--failures]
+    python -m benchmarks.teaching [--part development|held-out|both] [--draws 3] [--failures] [--untaught]
 
 The tasks of four worlds in `models/language/dataset/teaching`, which no network was trained on, are all taught at once,
 each with its name, one contextual query with its formula, and the given number of wordings, drawn at random. Then every
 wording is asked about other things in its world. What is understood is right when its formula is the one that the task
 means with these things. Those who work on the translator read the development half of the tasks only.
+
+`--untaught` tells from which confidence on what is understood can be believed: how many of the other wordings are
+understood with so much, rightly, wrongly, and when all tasks were taught but the one that they say.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import statistics
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from typing import Any, Literal
 
@@ -37,6 +40,8 @@ Part = Literal["development", "held-out"]
 PARTS: tuple[Part, ...] = ("development", "held-out")
 WORLDS = ("household", "warehouse", "laboratory", "garden")
 SHOTS = (1, 5)
+BELIEVED = (0.25, 0.5, 0.75)
+"""Confidences."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,6 +117,26 @@ class Bench:
                         score.failures.append(f"{task.name}: {text} -> {heard}")
         return same, other, wrong, seconds
 
+    def doubts(self, shots: int) -> dict[str, list[float]]:
+        """The confidences of what other wordings are taken for; 0 where for nothing that makes sense."""
+        generator = random.Random(f"{shots}/0")
+        hearing, chosen = self.taught(shots, generator)
+        assert hearing.lessons is not None
+        found: dict[str, list[float]] = {"right": [], "wrong": [], "not taught": []}
+        for task in tqdm(self.tasks, desc=f"{shots} examples", leave=False):
+            environment = self.worlds[task.world]
+            rest = Shelf.of(known for known in hearing.lessons.shelf.tasks if known.task != task.name)
+            without = replace(hearing, lessons=replace(hearing.lessons, shelf=rest, wordings=TaughtTranslator.of([])))
+            for wording in (w for number, w in enumerate(task.wordings) if number not in chosen[task.name]):
+                query = generator.choice(task.queries)
+                for heard in (hearing, without):
+                    said = heard.readings(filled(wording, query), environment, candidates=1)
+                    formula = said[0].grounded.formula if said and said[0].grounded else None
+                    right = "right" if formula == _meaning(task, query, environment) else "wrong"
+                    kind = right if heard is hearing else "not taught"
+                    found[kind].append(0.0 if formula is None else said[0].confidence)
+        return found
+
 
 def _task(entry: Mapping[str, Any], world: str, environment: Environment) -> Task:
     """Learned from the first query whose arguments are distinct things."""
@@ -154,15 +179,29 @@ def _load(name: str) -> Any:
     return yaml.safe_load(text)
 
 
+def print_doubts(bench: Bench) -> None:
+    """The table of `--untaught`."""
+    columns = "".join(f" at least {least:.0%} sure |" for least in BELIEVED)
+    print(f"| examples of each | other wordings |{columns}\n|---|---|{'---|' * len(BELIEVED)}")
+    for shots in SHOTS:
+        for kind, sure in bench.doubts(shots).items():
+            cells = "".join(f" {sum(confidence >= least for confidence in sure)} |" for least in BELIEVED)
+            print(f"| {shots} | {kind}: {len(sure)} |{cells}", flush=True)
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description="How well taught tasks are understood.")
     parser.add_argument("--part", choices=[*PARTS, "both"], default="both")
     parser.add_argument("--draws", type=int, default=3, help="of the wordings that are taught")
     parser.add_argument("--failures", action="store_true", help="list them; for the development half only")
+    parser.add_argument("--untaught", action="store_true", help="how sure it is of what was not taught, instead")
     options = parser.parse_args()
     torch.set_num_threads(1)
     bench = Bench(PARTS if options.part == "both" else (options.part,))
+    if options.untaught:
+        print_doubts(bench)
+        return
     print(f"{len(bench.tasks)} tasks taught at once, {options.draws} draws\n")
     print("| examples of each | same wording, other things | other wordings | median | 95th percentile |")
     print("|---|---|---|---|---|")

@@ -115,6 +115,13 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
     return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
 
 
+def are_commands(clauses: Sequence[Clause], understand: Understand) -> bool:
+    """Whether each clause says by itself what to do, and with what."""
+    texts = [" ".join(clause.words) for clause in clauses]
+    understand.prepare(texts)
+    return not any(is_bare(clause.words, understand(text)) for clause, text in zip(clauses, texts, strict=True))
+
+
 def _led(clause: Clause, understand: Understand) -> tuple[tuple[str, ...], Sequence[Translation]] | None:
     """A bare clause with the words before it that are its verb, and what that says: "then go to", "the attic"."""
     lead = tuple(word for word in clause.lead if word not in JOINING)

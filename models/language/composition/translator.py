@@ -10,7 +10,7 @@ from typing import Self
 
 from models.language.composition.arrangement import Arrangement, arranged_as, unended, unmarked
 from models.language.composition.avoidance import meanings
-from models.language.composition.clauses import Understand, readings
+from models.language.composition.clauses import Understand, are_commands, readings
 from models.language.composition.marks import MarkedReader
 from models.language.composition.shapes import (
     SINGLE,
@@ -47,7 +47,7 @@ LEAST_SHARE = 0.1
 UNDERSTOOD = 0.2
 """Compositions that are less probable together than this are not read."""
 SPLITTING = 0.1
-"""Probability that a text which says one task that is not known also falls into clauses that are: "go to the kitchen
+"""Probability that a text which says one task that is not known also falls into commands that are: "go to the kitchen
 and pick up the ball" is hardly one task.
 """
 APART = 0.7
@@ -156,7 +156,7 @@ class ComposedTranslator:
     ) -> dict[Query, float]:
         """The queries that the shapes give, and those of the text as one task, with their probabilities."""
         one_task, alone, unexplained = understood(whole), 0.0, 0.0
-        found: dict[Query, float] = {}
+        parts: list[tuple[Query, float, bool]] = []
         for arranged in shapes:
             sequence = arranged.shape.startswith(SEQUENCE)
             needless = arranged.shape == SINGLE or (sequence and one_task >= CERTAIN)
@@ -165,11 +165,11 @@ class ComposedTranslator:
             single = 1.0 if not read else one_task if sequence else 0.0
             alone += single * arranged.share
             unexplained += (1.0 - one_task) * arranged.share if arranged.shape == SINGLE else 0.0
-            for query, part in read.items():
-                found[query] = found.get(query, 0.0) + (1.0 - single) * arranged.share * part
-        several = sum(found.values())
-        scale = (several + unexplained) / (several + SPLITTING * unexplained or 1.0)
-        found = {query: part * scale for query, part in found.items()} if scale * several > UNDERSTOOD else {}
+            split = bool(read) and are_commands(arranged.clauses, understand)
+            parts += [(query, (1.0 - single) * arranged.share * part, split) for query, part in read.items()]
+        found = _split(parts, unexplained)
+        if sum(found.values()) <= UNDERSTOOD:
+            found = {}
         if one_task >= CERTAIN:
             found, alone = voted(found, alone, one_task)
         for translation in whole:
@@ -238,6 +238,18 @@ def _composed(arranged: Arrangement, understand: Understand) -> dict[Query, floa
         with suppress(QuerySyntaxError):  # too long or too deep
             for query, likely in meanings(filled(read_shape(arranged.shape), dict(queries))):
                 found[query] = found.get(query, 0.0) + part * likely
+    return found
+
+
+def _split(parts: Sequence[tuple[Query, float, bool]], unexplained: float) -> dict[Query, float]:
+    """The queries with their probabilities, of which those that fall into commands take nearly all of what would be one
+    task that is not known.
+    """
+    commands = sum(part for _, part, split in parts if split)
+    scale = (commands + unexplained) / (commands + SPLITTING * unexplained or 1.0)
+    found: dict[Query, float] = {}
+    for query, part, split in parts:
+        found[query] = found.get(query, 0.0) + part * (scale if split else 1.0)
     return found
 
 

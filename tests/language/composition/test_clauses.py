@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import pytest
 
 from models.language import Translation
-from models.language.composition.clauses import Clause, is_bare, readings
+from models.language.composition.clauses import Clause, are_commands, is_bare, readings
 from models.queries import parse_task
 
 SAYS = {
@@ -155,6 +155,15 @@ def test_a_bare_name_has_the_verb_right_before_it() -> None:
     (first, *others) = readings(clauses, understand)
     assert [str(query) for query in first[0].values()] == ["pickup(ball)", "go(zoo)"]
     assert others == []
+
+
+def test_what_says_by_itself_what_to_do_is_a_command() -> None:
+    def commands(*texts: str) -> bool:
+        return are_commands([Clause(1, tuple(text.split()), False) for text in texts], understand)
+
+    assert commands("go to the zoo", "pick up the ball")
+    assert not commands("go to the zoo", "the bank"), "it has no verb"
+    assert not commands("go to the zoo", "sing a song"), "it is not understood"
 
 
 def test_a_pronoun_stands_for_a_thing_with_what_describes_it() -> None:
