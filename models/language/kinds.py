@@ -10,19 +10,29 @@ from collections.abc import Callable, Hashable, Sequence
 
 from models.queries import ContextualQuery, GroundedQuery, Query, Template
 
+RIVAL = 0.1
+"""Part of a reading's probability from which another one counts as what may be meant instead, equal to what is left of
+the probability of a strange one (`models.language.reading.STRANGE`), so that no less probable one would win anyway:
+what is hardly near to switching on the machine does not tell that nobody goes to machines.
+"""
 
-def strangers(grounded: Sequence[GroundedQuery | None], template_of: Callable[[str], Template | None]) -> list[int]:
-    """For each reading of a text, how many of its arguments are things of a kind that their task was not taught with,
-    beyond those of the reading with the fewest among the readings that say the same of the same with other tasks.
+
+def strangers(
+    grounded: Sequence[tuple[GroundedQuery | None, float]], template_of: Callable[[str], Template | None]
+) -> list[int]:
+    """For each reading of a text, given with its probability, how many of its arguments are things of a kind that their
+    task was not taught with, beyond those of the reading with the fewest among the readings that say the same of the
+    same with other tasks, and are not much less probable.
 
     None of a reading that is not grounded.
     """
-    counts = [0 if query is None else _strange(query, template_of) for query in grounded]
-    least: dict[Hashable, int] = {}
-    outlines = [None if query is None else _outline(query.query) for query in grounded]
-    for outline, count in zip(outlines, counts, strict=True):
-        least[outline] = min(count, least.get(outline, count))
-    return [count - least[outline] for outline, count in zip(outlines, counts, strict=True)]
+    counts = [0 if query is None else _strange(query, template_of) for query, _ in grounded]
+    outlines = [None if query is None else _outline(query.query) for query, _ in grounded]
+    known = list(zip(outlines, counts, (probability for _, probability in grounded), strict=True))
+    return [
+        count - min(rival for same, rival, likely in known if same == outline and likely >= RIVAL * probability)
+        for outline, count, probability in known
+    ]
 
 
 def _strange(grounded: GroundedQuery, template_of: Callable[[str], Template | None]) -> int:

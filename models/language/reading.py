@@ -141,7 +141,7 @@ def read(
         if templates is not None:
             found = _read(text, translation, templates, environment)
             readings.append(replace(found, unsaid=_unsaid(translation.query, named)))
-    strange = strangers([reading.grounded for reading in readings], template_of)
+    strange = strangers([(reading.grounded, reading.confidence) for reading in readings], template_of)
     return tuple(replace(reading, strange=count) for reading, count in zip(readings, strange, strict=True))
 
 

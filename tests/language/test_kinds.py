@@ -26,7 +26,7 @@ TEMPLATES = {
 def counted(*queries: str) -> list[int]:
     translations = [Translation(parse_query(query), 0.5) for query in queries]
     readings = read("", translations, template_of=TEMPLATES.get, environment=NAVIGATION)
-    return strangers([reading.grounded for reading in readings], TEMPLATES.get)
+    return strangers([(reading.grounded, reading.confidence) for reading in readings], TEMPLATES.get)
 
 
 def test_a_landmark_is_not_what_move_to_was_taught_with() -> None:
@@ -36,6 +36,11 @@ def test_a_landmark_is_not_what_move_to_was_taught_with() -> None:
 def test_only_readings_of_the_same_things_are_compared() -> None:
     assert counted("move_to(bakery)", "navigate_one(zoo)") == [0, 0]
     assert counted("move_to(bakery)", "avoid(navigate_one(bakery))") == [0, 0]
+
+
+def test_what_is_far_less_likely_does_not_tell_what_is_strange() -> None:
+    said = [Translation(parse_query("move_to(bakery)"), 0.6), Translation(parse_query("navigate_one(bakery)"), 0.05)]
+    assert [reading.strange for reading in read("", said, template_of=TEMPLATES.get, environment=NAVIGATION)] == [0, 0]
 
 
 def test_parts_of_a_composition_count_one_by_one() -> None:

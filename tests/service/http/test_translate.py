@@ -103,6 +103,8 @@ def test_the_wording_taught_with_two_meanings_is_read_by_what_fits(client: httpx
 
     assert translate("tidy the bedroom") == "F at(robot, bedroom)"
     assert translate("tidy the cylinder") == "F in(cylinder, box)"
+    for task in ("clean", "tidy_up"):
+        client.delete(f"/templates/{task}")
 
 
 def test_a_wording_with_two_meanings_that_both_fit_is_not_planned(client: httpx.Client) -> None:
@@ -190,6 +192,7 @@ def test_taught_tasks_are_clauses_too(client: httpx.Client) -> None:
     body = {"text": "pick up the cylinder and then stow it in the crate", "environment": "toys"}
     answer = client.post("/translate", json=body).json()
     assert answer["contextual_query"]["text"] == "then(pickup(cylinder), stow_away(cylinder, crate))"
+    client.delete("/templates/stow_away")
     assert answer["ltl"] == "F (holding(cylinder) & F in(cylinder, box))"
 
 
