@@ -111,8 +111,7 @@ def is_bare(words: Sequence[str], said: Sequence[Translation]) -> bool:
     """Whether a clause only names things: its words are those of its arguments, or it says nothing that is known."""
     if not said:
         return True
-    named = {word for phrase in _task(said[0]).arguments for word in phrase.split()}
-    return all(word in named or word in DETERMINERS or is_mark(word) for word in words)
+    return not _besides(words, _task(said[0]))
 
 
 def are_commands(clauses: Sequence[Clause], understand: Understand) -> bool:
@@ -150,8 +149,13 @@ def _verb(
     own = clause if clause.number in whole else donor
     if own is None or not spoken[own.number]:
         return ()
-    named = {word for phrase in _task(spoken[own.number][0]).arguments for word in phrase.split()}
-    return tuple(word for word in own.words if word not in named and word not in DETERMINERS and not is_mark(word))
+    return _besides(own.words, _task(spoken[own.number][0]))
+
+
+def _besides(words: Sequence[str], query: ContextualQuery) -> tuple[str, ...]:
+    """The words that name none of the things of a query."""
+    named = {word for phrase in query.arguments for word in phrase.split()}
+    return tuple(word for word in words if word not in named and word not in DETERMINERS and not is_mark(word))
 
 
 def _together(
