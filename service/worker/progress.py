@@ -1,7 +1,7 @@
 """How far a plan is: written by the process that plans, read by the one that asked for it.
 
-The two share eight floating-point numbers. The first and the last count writes: where they differ, the reader came
-between, and reads again.
+The two share eight floating-point numbers. The first and the last count writes, and are read in the other order than
+they are written: where they differ, the reader came between, and reads again.
 """
 
 from __future__ import annotations
@@ -59,12 +59,13 @@ def clear(board: Board) -> None:
 def read(board: Board, elapsed_s: float) -> Progress | None:
     """What the board says; None before the first report."""
     for _ in range(READS):
-        first, stage, sweep, states, lower, upper, remaining, last = board[:]
-        if first == last:
+        last = board[SIZE - 1]
+        stage, sweep, states, lower, upper, remaining = board[1 : SIZE - 1]
+        if board[0] == last:
             break
     else:
         return None
-    if first == 0:
+    if last == 0:
         return None
     rest = None if math.isnan(remaining) else remaining
     return Progress(STAGES[int(stage)], int(sweep), int(states), lower, upper, elapsed_s, rest)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+from typing import Any
 
 import pytest
 
@@ -136,3 +137,32 @@ def test_a_reader_never_sees_half_a_report() -> None:
     finally:
         over.set()
         writer.join()
+
+
+class Interrupted(list[float]):
+    """A board that is written while it is read: when half of a stretch is copied, the next of the `steps` is made."""
+
+    def __init__(self, board: list[float], steps: list[list[tuple[int, float]]]) -> None:
+        super().__init__(board)
+        self.steps = steps
+
+    def __getitem__(self, place: Any) -> Any:
+        if not isinstance(place, slice):
+            return super().__getitem__(place)
+        places = range(SIZE)[place]
+        middle = len(places) // 2
+        first = [super(Interrupted, self).__getitem__(one) for one in places[:middle]]
+        for number, value in self.steps.pop(0) if self.steps else ():
+            self[number] = value
+        return first + [super(Interrupted, self).__getitem__(one) for one in places[middle:]]
+
+
+def test_what_is_half_written_is_not_read() -> None:
+    before, _, meter = fresh()
+    meter("compile", 1, 0.0, math.inf, 5)
+    after = list(before)
+    Meter(after)("rounds", 7, 0.25, 0.75, 120)
+    after[0] = after[-1] = 2.0
+    written = list(enumerate(after))
+    board = Interrupted(before, [written[:5], written[5:]])
+    assert read(board, 3.0) == Progress("rounds", 7, 120, 0.25, 0.75, 3.0, None)
