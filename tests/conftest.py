@@ -12,19 +12,33 @@ import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
+ROOT = Path(__file__).parents[1]
+LONG = ("service", "tests/service/jobs")
+"""Beginnings of the scopes that take minutes."""
+
 settings.register_profile("fixed", derandomize=True, deadline=None)  # machines are noisy
 settings.register_profile("fresh", print_blob=True, deadline=None)
 settings.load_profile("fresh" if os.environ.get("CQLTL_FUZZ") else "fixed")
 
 
-class _Together(LoadScopeScheduling):
-    """The tests of a file stay together, and so do those of the service, which share a server in this order."""
+def _scope(path: str) -> str:
+    """The tests of a file stay together, and so do those of the service, which share a server in this order: those of
+    its HTTP contract one, the others another.
+    """
+    _, *parts = Path(path).parts
+    if parts[0] == "service" and parts[1] not in ("jobs", "store", "worker"):
+        return "service/http" if parts[1] == "http" else "service"
+    return path
 
+
+class _Together(LoadScopeScheduling):
     def _split_scope(self, nodeid: str) -> str:
-        file = nodeid.partition("::")[0]
-        parts = Path(file).parts[1:]
-        shared = parts[0] == "service" and parts[1] not in ("jobs", "store", "worker")
-        return "service" if shared else file
+        return _scope(nodeid.partition("::")[0])
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What stays together longest comes first, so that both processes end at the same time."""
+    items.sort(key=lambda item: not _scope(str(item.path.relative_to(ROOT))).startswith(LONG))
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -10,6 +10,7 @@ import re
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from models.errors import Place
 from models.language.errors import TextTooLongError
@@ -109,13 +110,20 @@ def _sign(mark: str) -> str:
 
 
 def _token(run: re.Match[str]) -> Token | None:
+    text, before, after = _folded(run.group())
     start, end = run.span()
-    raw = run.group()
-    while raw and _is_punctuation(raw[0]):
-        raw, start = raw[1:], start + 1
-    while raw and _is_punctuation(raw[-1]):
-        raw, end = raw[:-1], end - 1
-    return Token(unicodedata.normalize("NFC", raw).lower(), start, end) if raw else None
+    return Token(text, start + before, end - after) if text else None
+
+
+@lru_cache(maxsize=4096)
+def _folded(raw: str) -> tuple[str, int, int]:
+    """A word without the punctuation around it, and how many characters of that are before and after it."""
+    start, end = 0, len(raw)
+    while start < end and _is_punctuation(raw[start]):
+        start += 1
+    while start < end and _is_punctuation(raw[end - 1]):
+        end -= 1
+    return unicodedata.normalize("NFC", raw[start:end]).lower(), start, len(raw) - end
 
 
 def _is_punctuation(character: str) -> bool:

@@ -26,7 +26,7 @@ def _one_thread() -> Iterator[None]:
 
 @pytest.mark.parametrize(("what", "name"), [("default", DEFAULT_NAME), ("composition --member 1", NAMES[1])])
 def test_the_default_translator(what: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    train.main([*what.split(), "--epochs", "2", "--seed", "7", "--share", "0.02", "--output", str(tmp_path)])
+    train.main([*what.split(), "--epochs", "2", "--seed", "7", "--share", "0.01", "--output", str(tmp_path)])
     names = [f"{name}-curve.json", f"{name}.json", f"{name}.safetensors"]
     assert sorted(path.name for path in tmp_path.iterdir()) == names
     record = json.loads((tmp_path / names[0]).read_text())

@@ -61,8 +61,9 @@ def framed(example: Example, generator: random.Random, *, part: Half | str) -> E
     kinds += [frames(part).closings, frames(part).calls]
     chosen = [kind for kind in kinds if generator.random() < 0.5] or [generator.choice(kinds)]
     for kind in chosen:
-        spoken = words(example.text)
-        example = _inside(generator.choice([frame for frame in kind if _once(frame).isdisjoint(spoken)]), example)
+        said_once = _ONCE.intersection(words(example.text))
+        fitting = [frame for frame in kind if said_once.isdisjoint(_once(frame))] if said_once else kind
+        example = _inside(generator.choice(fitting), example)
     return example
 
 
@@ -95,8 +96,13 @@ def is_imperative(text: str) -> bool:
 
 
 def _inside(frame: str, example: Example) -> Example:
-    count = len(words(frame.split("{}")[0]))
+    count = _before(frame)
     return _shifted(example, said(frame, example.text), lambda at: at + count)
+
+
+@cache
+def _before(frame: str) -> int:
+    return len(words(frame.split("{}")[0]))
 
 
 def _with_determiner(example: Example, start: int, determiner: str) -> Example:

@@ -76,6 +76,7 @@ class Lessons:
         validation: T's commands that are only looked at.
         refused, held_out: texts that no task fits, for fitting and for looking at.
         classes: the task classes with their argument slots, in order.
+        words: see `spoken_words`.
     """
 
     training: Mapping[str, Sequence[Example]]
@@ -84,6 +85,7 @@ class Lessons:
     held_out: Sequence[Item]
     classes: Mapping[str, tuple[Domain, tuple[str, ...]]]
     names: Names
+    words: tuple[str, ...] = ()
 
     @classmethod
     def load(cls, *, seed: int) -> Lessons:
@@ -98,18 +100,14 @@ class Lessons:
             classes={task.name: (domain, task.arguments) for domain in Domain for task in read_corpus(domain).tasks},
             names=names(),
         )
-        content = [word for word in spoken_words(lessons) if word not in STOP_WORDS and word not in NEGATIONS]
-        return replace(lessons, names=replace(lessons.names, spoken=content))
+        spoken = spoken_words(lessons)
+        content = [word for word in spoken if word not in STOP_WORDS and word not in NEGATIONS]
+        return replace(lessons, names=replace(lessons.names, spoken=content), words=spoken)
 
     @property
     def tasks(self) -> tuple[tuple[str, int], ...]:
         """The task classes with their numbers of arguments."""
         return tuple((task, len(slots)) for task, (_, slots) in self.classes.items())
-
-    @property
-    def words(self) -> tuple[str, ...]:
-        """See `spoken_words`."""
-        return spoken_words(self)
 
     def epoch(self, generator: random.Random) -> list[Item]:
         """Texts for one pass: COMMANDS of each task class, and REFUSALS that no task fits."""

@@ -60,8 +60,12 @@ def test_every_way_to_say_it_of_a_thing_has_the_slots_of_the_clause() -> None:
             assert sorted(re.findall(r"\{(\w+)\}", said)) == sorted(leaf.slots), leaf.do
 
 
-def test_texts_have_their_clauses_where_the_mentions_say() -> None:
-    course = CompositionLessons.load(seed=0)
+@pytest.fixture(scope="module")
+def course() -> CompositionLessons:
+    return CompositionLessons.load(seed=0)
+
+
+def test_texts_have_their_clauses_where_the_mentions_say(course: CompositionLessons) -> None:
     generator = random.Random(5)
     for shape, arity in course.tasks:
         for _ in range(10):
@@ -77,14 +81,16 @@ def test_texts_have_their_clauses_where_the_mentions_say() -> None:
                     taken.update(range(begin, end))
 
 
-def test_an_echo_says_again_what_was_said_and_is_no_part_of_the_clause(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_echo_says_again_what_was_said_and_is_no_part_of_the_clause(
+    course: CompositionLessons, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pattern = _pattern("repeat(and(1, 2))", "{1:it} {2:it} {1:echo} {2:echo}")
     monkeypatch.setattr(lessons, "patterns", lambda: {pattern.shape: (pattern,)})
     monkeypatch.setattr(lessons, "nestings", dict)
     monkeypatch.setattr(CompositionLessons, "_beside", lambda *_: [])
     monkeypatch.setattr(lessons, "FRAMED", 0.0)
     monkeypatch.setattr(lessons, "REASON", 0.0)
-    item = CompositionLessons.load(seed=0).composed(pattern.shape, random.Random(1))
+    item = course.composed(pattern.shape, random.Random(1))
     half = len(item.text) // 2
     assert item.text[:half] == item.text[half:]
     assert [spans[-1][1] for spans in item.mentions][-1] == half
@@ -96,8 +102,7 @@ def test_an_echo_of_nothing_is_refused(text: str) -> None:
         _pattern("and(1, 2)", text)
 
 
-def test_nothing_held_out_is_taught() -> None:
-    course = CompositionLessons.load(seed=0)
+def test_nothing_held_out_is_taught(course: CompositionLessons) -> None:
     refused = {item.text for item in course.refused}
     assert not refused & {item.text for item in course.held_out}
     assert len(refused) > 500

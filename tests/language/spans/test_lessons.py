@@ -8,7 +8,7 @@ import pytest
 
 from models.language.dataset import Domain, Part, generate, no_task, open_words, paraphrases, read_corpus
 from models.language.spans.items import Item
-from models.language.spans.lessons import COMMANDS, OTHER_JOBS, REFUSALS, Lessons, misspelled, spoken_words
+from models.language.spans.lessons import COMMANDS, OTHER_JOBS, REFUSALS, Lessons, misspelled
 from models.language.tokens import words
 
 
@@ -60,7 +60,7 @@ def test_the_checks_are_commands_of_t_that_are_not_fitted_to(lessons: Lessons) -
 
 
 def test_spoken_words_are_those_of_wordings_and_not_of_names(lessons: Lessons) -> None:
-    spoken = set(spoken_words(lessons))
+    spoken = set(lessons.words)
     assert {"put", "the", "then", "please", "go", "hold", "before"} <= spoken
     assert not {"cylinder", "bedroom", "basket", "purple", "bakery"} & spoken
     assert not spoken & words_of(Part.UNSEEN)

@@ -44,7 +44,7 @@ class _Few:
 def course() -> _Few:
     lessons = Lessons.load(seed=3)
     generator = random.Random(3)
-    drawn = generator.sample(lessons.epoch(generator), 2_000)
+    drawn = generator.sample(lessons.epoch(generator), 1_000)
     return _Few(lessons.tasks, lessons.words, drawn, lessons.checks(generator), 1_000)
 
 
