@@ -53,6 +53,9 @@ from service.translators import DEFAULT, Translators
 from service.understanding import understand
 from service.worker import Workers
 
+REST_AFTER_S = 1.0
+"""How long after the start is loaded what few requests need."""
+
 
 class State(TypedDict):
     """What the lifespan hands to every request."""
@@ -137,12 +140,14 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         if warm:
             await run_sync(_warm, services)
             await run_sync(workers.loaded)
-            tasks.append(asyncio.create_task(run_sync(_load_the_rest)))
+            tasks.append(asyncio.create_task(_load_the_rest()))
         yield {"services": services}
     except CannotStartError as error:
         app.state.cannot_start = error
         raise
     finally:
+        for task in tasks[1:]:
+            task.cancel()
         await asyncio.wait(tasks)
         if executor is not None:
             await executor.stop()
@@ -180,7 +185,10 @@ def _warm(services: Services) -> None:
     )
 
 
-def _load_the_rest() -> None:
-    """Load what few requests need and takes a second: parts of speech, and policies to act by."""
-    part_of_speech("pick up the orange", "orange")
-    import_module("models.planning")
+async def _load_the_rest() -> None:
+    """Load what few requests need and takes a second: parts of speech, and policies to act by. Not at once: what was
+    started for a few requests only need not wait for it.
+    """
+    await asyncio.sleep(REST_AFTER_S)
+    await run_sync(part_of_speech, "pick up the orange", "orange")
+    await run_sync(import_module, "models.planning")
