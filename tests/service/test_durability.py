@@ -20,11 +20,11 @@ def test_what_was_answered_survives_kill_dash_nine(tmp_path: Path) -> None:
         url = address(process)
         lesson = {"contextual_query": "hold(sphere)", "ltl": "F holding(sphere)", "environment": "toys"}
         world = {**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "mine"}
-        assert httpx.post(f"{url}/environments", json=world).status_code == 201
+        assert httpx.post(f"{url}/environments", json=world, timeout=60).status_code == 201
         plan = httpx.post(f"{url}/plan", json={"ltl": "F holding(cube)", "environment": "mine"}, timeout=60).json()
         gone = ("templates/pickup", "environments/navigation")
-        assert [httpx.delete(f"{url}/{path}").status_code for path in gone] == [204, 204]
-        template = httpx.post(f"{url}/learn", json=lesson)
+        assert [httpx.delete(f"{url}/{path}", timeout=60).status_code for path in gone] == [204, 204]
+        template = httpx.post(f"{url}/learn", json=lesson, timeout=60)
         process.kill()  # right after the 201
     assert template.status_code == 201
     with serving(tmp_path) as client:
@@ -97,11 +97,12 @@ def test_two_servers_share_a_store(tmp_path: Path) -> None:
             thread.join()
         assert codes == [201] * 16
         for url in urls:
-            tasks = [item["task"] for item in httpx.get(f"{url}/templates", params={"limit": 200}).json()["items"]]
+            listed = httpx.get(f"{url}/templates", params={"limit": 200}, timeout=60).json()
+            tasks = [item["task"] for item in listed["items"]]
             assert {f"task{n}" for n in range(16)} <= set(tasks)
             for number in range(16):
                 body = {"text": f"perform number {number} on the cylinder", "environment": "toys"}
-                answer = httpx.post(f"{url}/translate", json=body).json()
+                answer = httpx.post(f"{url}/translate", json=body, timeout=60).json()
                 assert answer["contextual_query"]["text"] == f"task{number}(cylinder)"
 
 

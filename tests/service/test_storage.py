@@ -17,6 +17,7 @@ from service.store.migrate import migrate
 from tests.service.conftest import check_problem, run_cli
 
 STORE = "cqltl.sqlite3"
+ASKED = {"text": "Pickup the sphere", "environment": "toys"}
 
 
 def world(number: int) -> dict[str, Any]:
@@ -42,11 +43,11 @@ def check_full(url: str, stored: int, refusal: httpx.Response) -> None:
     plan = httpx.post(f"{url}/plan", json={"ltl": "F holding(cube)", "environment": "w0"}, timeout=60)
     if plan.status_code != 200:  # a small policy may still find room
         check_problem(plan, "insufficient-storage", 507)
-    assert httpx.get(f"{url}/environments/w{stored - 1}").json()["name"] == f"w{stored - 1}"
-    assert httpx.get(f"{url}/environments/w{stored}").status_code == 404
+    assert httpx.get(f"{url}/environments/w{stored - 1}", timeout=60).json()["name"] == f"w{stored - 1}"
+    assert httpx.get(f"{url}/environments/w{stored}", timeout=60).status_code == 404
     for path in ("/readyz", "/livez", "/templates/ship", "/jobs"):
-        assert httpx.get(url + path).status_code == 200
-    said = httpx.post(f"{url}/translate", json={"text": "Pickup the sphere", "environment": "toys"})
+        assert httpx.get(url + path, timeout=60).status_code == 200
+    said = httpx.post(f"{url}/translate", json=ASKED, timeout=60)
     assert said.json()["outcome"] == "translated"
 
 
