@@ -185,12 +185,12 @@ def attempt(text: str, dialect: Dialect | None) -> tuple[Formula | None, CqltlEr
     ids=lambda text: f"{text[:8]}x{len(text)}",
 )
 def test_hostile_texts_are_refused_quickly(text: str) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     for dialect in (None, Dialect.PREFIX):
         with pytest.raises((FormulaTooLargeError, FormulaSyntaxError)) as caught:
             parse(text, dialect=dialect)
         assert len(str(caught.value)) < 400
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
 
 
 @pytest.mark.parametrize(
@@ -206,10 +206,10 @@ def test_hostile_texts_are_refused_quickly(text: str) -> None:
     ],
 )
 def test_no_text_makes_the_lexer_slow(text: str) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises((FormulaTooLargeError, FormulaSyntaxError)):
         parse(text)
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
 
 
 def test_long_flat_formulas_are_read() -> None:

@@ -298,9 +298,9 @@ def test_the_extreme_of_some_things_is_one_of_them(state, size):
 
 @given(st.lists(st.sampled_from(WORDS), max_size=20))
 def test_any_words_are_read_in_little_time(said):
-    started = time.perf_counter()
+    started = time.process_time()
     grounding = ground(" ".join(said), _NURSERY, kinds=MOVABLE)
-    assert time.perf_counter() - started < 2
+    assert time.process_time() - started < 2
     assert all(candidate.symbol.kind in MOVABLE for candidate in grounding.candidates)
 
 
