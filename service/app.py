@@ -146,7 +146,7 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         app.state.cannot_start = error
         raise
     finally:
-        for task in tasks[1:]:
+        for task in tasks[1:]:  # the workers have to be started before they can be stopped; the rest need not be loaded
             task.cancel()
         await asyncio.wait(tasks)
         if executor is not None:
