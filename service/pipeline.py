@@ -18,13 +18,15 @@ from models.queries import (
     resolve_grounded,
 )
 from models.world import Environment, State
+from service.completions import completions, says_too_little
 from service.errors import AmbiguousCommandError, NotUnderstoodError
 from service.jobs import Commission, Planned
 from service.places import at
-from service.questions import Answer, Question, answered, question_of
+from service.questions import Answer, Question, answered, left_out, question_of
 from service.services import LoadedEnvironment, Services
 from service.store import Once, StoredJob
-from service.taught import read_template
+from service.taught import Taught, read_template
+from service.translators import DEFAULT
 from service.understanding import Meaning, Understanding, nearest_tasks, understand
 from service.worker import Device, Objective, PlanJob
 
@@ -37,7 +39,9 @@ RIVALS = 3
 
 @dataclass(frozen=True, slots=True)
 class Translated:
-    """The ways to understand a command, best first; none when no task fits. Without an environment that is None."""
+    """The ways to understand a command, best first; none when no task fits, or when it leaves something out, which the
+    question asks for. Without an environment that is None.
+    """
 
     text: str
     readings: tuple[Understanding, ...]
@@ -48,9 +52,9 @@ class Translated:
     @property
     def outcome(self) -> Literal["translated", "ambiguous", "unknown"]:
         """Whether the command is understood, leaves a question open, or fits no task."""
-        if not self.readings:
-            return "unknown"
-        return "translated" if self.question is None else "ambiguous"
+        if self.question is not None:
+            return "ambiguous"
+        return "translated" if self.readings else "unknown"
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,14 +116,41 @@ def _translated(
 ) -> Translated:
     world = None if environment is None else _situated(services, environment, state)
     taught = services.known()
+    left, question = _heard(services, taught, text, world, translator, max(candidates, RIVALS), answers, pointer)
+    if left or question:
+        return Translated(text, left[:candidates], world, question)
     with at(pointer):
-        found = understand(services, taught, text, world, translator=translator, candidates=max(candidates, RIVALS))
-        if not found:
-            nearest = nearest_tasks(services, taught, text, world, translator=translator)
-            return Translated(text, (), world, None, nearest)
+        nearest = nearest_tasks(services, taught, text, world, translator=translator)
+    return Translated(text, (), world, None, nearest)
+
+
+def _heard(
+    services: Services,
+    taught: Taught,
+    text: str,
+    world: Environment | None,
+    translator: str,
+    candidates: int,
+    answers: Sequence[Answer],
+    pointer: str,
+) -> tuple[tuple[Understanding, ...], Question | None]:
+    """The ways to understand a command that the answers leave, best first, and what is to be asked next; no way but a
+    question where the command leaves something out, and neither where no task fits.
+    """
+    first = None
+    with at(pointer):
+        found = understand(services, taught, text, world, translator=translator, candidates=candidates)
+        if translator == DEFAULT and world is not None and says_too_little(text, found):
+            filled = completions(taught, text, world)
+            if filled:
+                found, first = filled, left_out(text, filled, world)
+    if first is not None and not answers:
+        return (), first
+    if not found:
+        return (), None
     with at("", only={"wrong-answer"}):
-        left = answered(text, found, answers, taught, world)
-    return Translated(text, left[:candidates], world, question_of(left, taught, world))
+        left = answered(text, found, answers, taught, world, first=first)
+    return left, question_of(left, taught, world)
 
 
 def ground(
@@ -206,19 +237,15 @@ def _meaning_of(services: Services, order: PlanOrder, environment: Environment) 
     """What a command to be planned means; a robot must not act on a guess, so doubt is refused."""
     assert order.text is not None
     taught, text = services.known(), order.text
-    with at("/text"):
-        found = understand(services, taught, text, environment, translator=order.translator, candidates=RIVALS)
-    if not found:
-        with at("/text"):
-            near = nearest_tasks(services, taught, text, environment, translator=order.translator)
-            hint = f"the nearest known tasks are {', '.join(near)}" if near else "GET /templates lists the known tasks"
-            raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; {hint}')
-    with at("", only={"wrong-answer"}):
-        left = answered(text, found, order.answers, taught, environment)
-    best, question = left[0], question_of(left, taught, environment)
+    left, question = _heard(services, taught, text, environment, order.translator, RIVALS, order.answers, "/text")
     with at("/text"):
         if question is not None:
             raise AmbiguousCommandError(f'"{text[:100]}" leaves a question open: {question.text}', question)
+        if not left:
+            near = nearest_tasks(services, taught, text, environment, translator=order.translator)
+            hint = f"the nearest known tasks are {', '.join(near)}" if near else "GET /templates lists the known tasks"
+            raise NotUnderstoodError(f'no stored task fits "{text[:100]}"; {hint}')
+        best = left[0]
         if best.meaning is None:
             assert best.refusal is not None
             best.refusal.places = ()  # they are in a contextual query that the caller did not write

@@ -7,22 +7,15 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from models.errors import Place
-from models.language.reading import read
-from models.language.translation import Translation
 from models.queries import (
     AmbiguousGroundingError,
-    Composition,
     ContextualQuery,
-    Path,
-    Query,
-    Template,
-    parameter_kinds,
-    pointer_of,
 )
 from models.world import Environment, Symbol, UnknownObjectError, speaks_of_others
 from service.errors import AnswerError
+from service.filling import filled, reread, task_at, things_for
 from service.taught import Taught
-from service.understanding import Understanding, of_reading
+from service.understanding import Understanding
 
 CLOSE = 0.6
 """A reading that is as probable as this part of the likeliest may be meant as well."""
@@ -32,8 +25,6 @@ DOUBTFUL_NEAR = 0.5
 """The same for a task that was taught with examples: where as many commands say tasks that nobody taught as such that
 somebody did, what is near with less is wrong more often than right (`benchmarks.teaching --untaught`).
 """
-MAX_CHOICES = 20
-"""Most choices of a question; what fits more things is asked without naming any."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,21 +69,30 @@ def question_of(readings: Sequence[Understanding], taught: Taught, environment: 
     return _either(readings, taught, environment)
 
 
+def left_out(text: str, completions: Sequence[Understanding], environment: Environment) -> Question:
+    """Which of the readings is meant that fill the gap of a command."""
+    choices = tuple(str(reading.query) for reading in completions)
+    says = tuple(reading.meaning.explanation(environment) for reading in completions if reading.meaning is not None)
+    return Question("reading", f'"{text[:100]}" leaves something out; which of these is meant?', choices, says)
+
+
 def answered(
     text: str,
     readings: Sequence[Understanding],
     answers: Sequence[Answer],
     taught: Taught,
     environment: Environment | None,
+    *,
+    first: Question | None = None,
 ) -> tuple[Understanding, ...]:
-    """The reading that is left when the questions are answered one after the other.
+    """The reading that is left when the questions are answered one after the other, the `first` of which may be given.
 
     Raises:
         AnswerError: an answer is not one to the question that is asked then; the place names it.
     """
     left = tuple(readings)
     for number, answer in enumerate(answers):
-        question = question_of(left, taught, environment)
+        question = first if first is not None and number == 0 else question_of(left, taught, environment)
         if question is None:
             raise _wrong(number, "", "nothing is asked here")
         if answer.choice not in question.choices:
@@ -104,8 +104,8 @@ def answered(
             raise _wrong(number, "/argument", f'asked is argument {question.argument} of the part "{question.part}"')
         query = left[0].query
         assert query is not None
-        named = _with(query, answer.part, answer.argument or 0, answer.choice)
-        left = (_reread(text, replace(left[0], query=named), taught, environment),)
+        named = filled(query, answer.part, answer.argument or 0, answer.choice)
+        left = (reread(text, replace(left[0], query=named), taught, environment),)
     return left
 
 
@@ -125,7 +125,7 @@ def _called(
 ) -> Question | None:
     """What an unknown word means, if any thing in its place makes sense of the reading."""
     part, found, place = refusal.places[0].pointer.rpartition("/arguments/") if refusal.places else ("", "", "")
-    task = _task(reading.query, part) if found and reading.query is not None else None
+    task = task_at(reading.query, part) if found and reading.query is not None else None
     template = None if task is None else taught.template(task.task)
     if task is None or template is None or reading.query is None:
         return None
@@ -133,9 +133,9 @@ def _called(
     if speaks_of_others(task.arguments[argument - 1], environment):
         return None  # every word is known; there is just no such thing
     choices, says = [], []
-    for symbol in _things(template, argument, environment):
-        named = replace(reading, query=_with(reading.query, part, argument, symbol.name))
-        if _reread(task.arguments[argument - 1], named, taught, environment).meaning is not None:
+    for symbol in things_for(template, argument, environment):
+        named = replace(reading, query=filled(reading.query, part, argument, symbol.name))
+        if reread(task.arguments[argument - 1], named, taught, environment).meaning is not None:
             choices.append(symbol.name)
             says.append(_description(symbol, environment))
     if not choices:
@@ -169,47 +169,12 @@ def _least(reading: Understanding, taught: Taught) -> float:
     return DOUBTFUL if stored is None or not stored.examples else DOUBTFUL_NEAR
 
 
-def _things(template: Template, argument: int, environment: Environment) -> list[Symbol]:
-    """What may be an argument, of the kinds it was taught with if these are known; nothing if it is too much."""
-    taught = template.taught[argument - 1] if template.taught else frozenset()
-    kinds = taught or parameter_kinds(template.formula, environment, template.arity)[argument - 1]
-    symbols = [symbol for symbol in environment.vocabulary.symbols() if symbol.kind in kinds]
-    return symbols if len(symbols) <= MAX_CHOICES else []
-
-
 def _description(symbol: Symbol, environment: Environment) -> str:
     """The name, the class, and what never changes of it: "cylinder: a toy, red, small"."""
     is_object = environment.vocabulary.is_object
     static = environment.vocabulary.static.get(symbol, {}).values()
     values = [value.name for value in static if value.name != symbol.name and not is_object(value)]
     return ", ".join([f"{symbol.name}: a {symbol.kind}", *values]).replace("_", " ")
-
-
-def _reread(text: str, reading: Understanding, taught: Taught, environment: Environment | None) -> Understanding:
-    """The same reading of its query as it is now."""
-    assert reading.query is not None
-    said = [Translation(reading.query, reading.confidence)]
-    (found,) = read(text, said, template_of=taught.template, environment=environment)
-    return of_reading(found, taught.stored)
-
-
-def _task(query: Query, part: str) -> ContextualQuery | None:
-    return next((task for path, task in query.tasks if pointer_of(path) == part), None)
-
-
-def _with(query: Query, part: str, argument: int, phrase: str) -> Query:
-    """The query with another phrase as an argument of its task at a pointer."""
-    return _replaced(query, next(path for path, _ in query.tasks if pointer_of(path) == part), argument, phrase)
-
-
-def _replaced(query: Query, path: Path, argument: int, phrase: str) -> Query:
-    if isinstance(query, ContextualQuery):
-        arguments = list(query.arguments)
-        arguments[argument - 1] = phrase
-        return replace(query, arguments=tuple(arguments))
-    operands: list[Query] = list(query.operands)
-    operands[path[0]] = _replaced(operands[path[0]], path[1:], argument, phrase)
-    return Composition(query.operator, tuple(operands))
 
 
 def _wrong(number: int, member: str, detail: str) -> AnswerError:

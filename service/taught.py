@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from threading import Lock
 
 from models.language import TaughtTranslator, Utterance, Wording
+from models.language.dataset.wordings import trained_wordings
 from models.language.hearing import Lessons
 from models.language.matching import Known, Matcher, Shelf, TaughtTask
 from models.language.matching.cards import cards_of
+from models.language.teaching import Gap, OpenWordings
 from models.language.teaching.wording import Element
 from models.logic import atoms, parse
 from models.queries import Template, parse_task
@@ -29,6 +32,7 @@ class Taught:
     _meanings: Mapping[tuple[Element, ...], tuple[Meaning, ...]]
     _templates: dict[str, Template] = field(default_factory=dict)
     _lessons: list[Lessons] = field(default_factory=list)
+    _open: list[OpenWordings] = field(default_factory=list)
 
     @classmethod
     def of(cls, version: int, stored: Mapping[str, StoredTemplate]) -> Taught:
@@ -58,6 +62,13 @@ class Taught:
             left = frozenset(task for task in own if task in self.stored and not self.stored[task].examples)
             self._lessons.append(Lessons(self.wordings, Shelf.of(tasks), matcher, functions, left))
         return self._lessons[0]
+
+    def gaps(self, text: str) -> tuple[Gap, ...]:
+        """What a command says but for one argument, in the wordings of the stored tasks; raises TextTooLongError."""
+        if not self._open:
+            trained = (wording for wording in trained_wordings() if wording.task in self.stored)
+            self._open.append(OpenWordings.of(chain((wording for wording, _ in self.wordings.wordings), trained)))
+        return self._open[0].gaps(text)
 
     def _task(self, stored: StoredTemplate, matcher: Matcher, known: KnownCache) -> TaughtTask:
         examples = known.of([read_example(example) for example in stored.examples], matcher)

@@ -12,7 +12,7 @@ export async function showUnderstanding(translation, asked) {
     translation.confidence == null ? "" : `${(100 * translation.confidence).toFixed(1)} % sure`;
   const steps = [
     row("Sentence", marked(translation.text, translation.bindings), bound(translation), ["POST", "/translate", asked]),
-    row("Query", code(query?.text ?? "no task fits"), others(translation), ["POST", "/translate", asked]),
+    row("Query", code(query?.text ?? (translation.question ? "not complete" : "no task fits")), others(translation), ["POST", "/translate", asked]),
   ];
   byId("steps").replaceChildren(...steps);
   if (!query) return;
