@@ -7,6 +7,7 @@ import pytest
 from benchmarks.language import Bench
 from models.logic import Op, Unary
 from models.logic import to_text as formula_text
+from models.queries import ContextualQuery
 from service.questions import CLOSE
 
 
@@ -69,6 +70,22 @@ def test_what_is_forbidden_is_not_done(bench: Bench, world: str, text: str) -> N
     assert formula.op is Op.GLOBALLY
     assert isinstance(formula.operand, Unary)
     assert formula.operand.op is Op.NOT
+
+
+@pytest.mark.parametrize(
+    ("world", "text"),
+    [
+        ("warehouse", "never enter the loading bay while carrying a parcel"),
+        ("warehouse", "don't go to the charger before delivering the parcel"),
+        ("toys", "go to the kitchen, and never drop the ball"),
+        ("house", "do not bring the towel to the bathroom until the oven is on"),
+    ],
+)
+def test_a_text_that_forbids_a_part_of_what_it_says_is_not_taken_for_a_task(
+    bench: Bench, world: str, text: str
+) -> None:
+    found = bench.hearing.readings(text, bench.environments[world], candidates=3)
+    assert not any(isinstance(reading.query, ContextualQuery) for reading in found)
 
 
 def test_what_may_be_forbidden_is_asked_about(bench: Bench) -> None:

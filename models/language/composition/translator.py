@@ -143,6 +143,16 @@ class ComposedTranslator:
         shapes, _ = self._shapes(marked_words(text))
         return _part(shapes, AVOIDED.__eq__)
 
+    def forbids_in_part(self, text: str) -> float:
+        """The probability that a text that forbids something says more than that: until when, while what holds, or what
+        is to be done besides. No one task is all of it.
+        """
+        spoken = marked_words(text)
+        if not WHILE.isdisjoint(spoken):
+            return 1.0
+        shapes, _ = self._shapes(spoken)
+        return _part(shapes, lambda shape: forbids(shape) and shape != AVOIDED)
+
     def refuses(self, text: str) -> float:
         """The probability that a text asks for nothing, of whatever task."""
         return self._shapes(marked_words(text))[1]
