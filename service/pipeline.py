@@ -143,7 +143,7 @@ def _heard(
         if translator == DEFAULT and world is not None and says_too_little(text, found):
             filled = completions(taught, text, world)
             if filled:
-                found, first = filled, left_out(text, filled, world)
+                found, first = filled, left_out(filled, world)
     if first is not None and not answers:
         return (), first
     if not found:

@@ -69,11 +69,11 @@ def question_of(readings: Sequence[Understanding], taught: Taught, environment: 
     return _either(readings, taught, environment)
 
 
-def left_out(text: str, completions: Sequence[Understanding], environment: Environment) -> Question:
+def left_out(completions: Sequence[Understanding], environment: Environment) -> Question:
     """Which of the readings is meant that fill the gap of a command."""
     choices = tuple(str(reading.query) for reading in completions)
     says = tuple(reading.meaning.explanation(environment) for reading in completions if reading.meaning is not None)
-    return Question("reading", f'"{text[:100]}" leaves something out; which of these is meant?', choices, says)
+    return Question("reading", "something is left out; which of these is meant?", choices, says)
 
 
 def answered(
