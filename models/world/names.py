@@ -13,6 +13,15 @@ from itertools import islice
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _WORD = re.compile(r"[^\W_]+")
 _SPELLINGS = {"colour": "color", "colours": "colors", "coloured": "colored", "grey": "gray"}
+_PLURALS = """
+shelves:shelf bookshelves:bookshelf knives:knife loaves:loaf halves:half scarves:scarf leaves:leaf wolves:wolf
+thieves:thief calves:calf wives:wife buses:bus gases:gas lenses:lens shoes:shoe toes:toe canoes:canoe hoes:hoe
+cookies:cookie movies:movie brownies:brownie smoothies:smoothie pies:pie ties:tie headaches:headache
+people:person men:man women:woman children:child mice:mouse feet:foot teeth:tooth geese:goose
+lens:lens gas:gas series:series scissors:scissors
+"""
+_IRREGULAR = dict(pair.split(":") for pair in _PLURALS.split())
+"""Singulars that the rules get wrong."""
 _MOST_COMPARED = 16
 NONE = "none"
 """The value of an attribute that has no value; no object or attribute value may have this name."""
@@ -41,10 +50,14 @@ def encodable(text: str) -> str:
 
 
 def singular(word: str) -> str:
-    """A simple singular: `boxes` -> `box`, `berries` -> `berry`, `cubes` -> `cube`; `glass` stays."""
+    """A simple singular: `boxes` -> `box`, `berries` -> `berry`, `cubes` -> `cube`, `shelves` -> `shelf`; `glass`
+    stays.
+    """
+    if word in _IRREGULAR:
+        return _IRREGULAR[word]
     if len(word) > 4 and word.endswith("ies"):
         return word[:-3] + "y"
-    if len(word) > 4 and word.endswith(("xes", "ches", "shes", "sses")):
+    if len(word) > 4 and word.endswith(("xes", "ches", "shes", "sses", "zzes", "oes")):
         return word[:-2]
     if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
         return word[:-1]

@@ -45,6 +45,7 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
         ("warehouse", "place the small parcel on shelf a", "F in(red_parcel, shelf_a)"),
         ("warehouse", "put the blue parcel back on shelf c", "F in(blue_parcel, shelf_c)"),
         ("warehouse", "go to shelf b and never go to shelf a", "F near(robot, shelf_b) & G !near(robot, shelf_a)"),
+        ("warehouse", "visit all shelves", "F near(robot, shelf_a) & F near(robot, shelf_b) & F near(robot, shelf_c)"),
         ("warehouse", "keep going between shelf a and shelf b", "G (F near(robot, shelf_a) & F near(robot, shelf_b))"),
     ],
 )
