@@ -150,7 +150,7 @@ def _heard(
         return (), None
     with at("", only={"wrong-answer"}):
         left = answered(text, found, answers, taught, world, first=first)
-    return left, question_of(left, taught, world)
+    return left, question_of(text, left, taught, world)
 
 
 def ground(

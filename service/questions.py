@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from models.errors import Place
+from models.language.measures import measure
 from models.queries import (
     AmbiguousGroundingError,
     ContextualQuery,
@@ -52,12 +53,14 @@ class Answer:
     argument: int | None = None
 
 
-def question_of(readings: Sequence[Understanding], taught: Taught, environment: Environment | None) -> Question | None:
-    """What has to be asked before the readings, best first, can be acted on; None when nothing is open.
+def question_of(
+    text: str, readings: Sequence[Understanding], taught: Taught, environment: Environment | None
+) -> Question | None:
+    """What has to be asked before the readings of a text, best first, can be acted on; None when nothing is open.
 
     Asked is, in this order: which of the things that a phrase fits, or which thing is called by an unknown word where
-    all other arguments are known; and which of the readings is meant, when another is nearly as probable or the best is
-    improbable itself.
+    all other arguments are known; whether the best is meant where the text says more than a query can; and which of the
+    readings is meant, when another is nearly as probable or the best is improbable itself.
     """
     if not readings or environment is None:
         return None
@@ -66,7 +69,7 @@ def question_of(readings: Sequence[Understanding], taught: Taught, environment: 
         return _which(best.refusal, environment)
     if isinstance(best.refusal, UnknownObjectError):
         return _called(best, best.refusal, taught, environment)
-    return _either(readings, taught, environment)
+    return _confirmation(text, best, taught, environment) or _either(readings, taught, environment)
 
 
 def left_out(completions: Sequence[Understanding], environment: Environment) -> Question:
@@ -92,7 +95,7 @@ def answered(
     """
     left = tuple(readings)
     for number, answer in enumerate(answers):
-        question = first if first is not None and number == 0 else question_of(left, taught, environment)
+        question = first if first is not None and number == 0 else question_of(text, left, taught, environment)
         if question is None:
             raise _wrong(number, "", "nothing is asked here")
         if answer.choice not in question.choices:
@@ -141,6 +144,21 @@ def _called(
     if not choices:
         return None
     return Question("thing", f'what is "{task.arguments[argument - 1]}"?', tuple(choices), tuple(says), part, argument)
+
+
+def _confirmation(text: str, best: Understanding, taught: Taught, environment: Environment) -> Question | None:
+    """Whether a reading that is not certain is meant without what the text says besides: how often or how long, which
+    no query says. An utterance that a task was taught with may.
+    """
+    if best.query is None or best.meaning is None or best.confidence >= 1.0:
+        return None
+    passed_over = measure(text, best.query)
+    stored = [taught.stored[task.task] for _, task in best.query.tasks if task.task in taught.stored]
+    said = (example.text for template in stored for example in template.examples)
+    if passed_over is None or any(measure(example, best.query) == passed_over for example in said):
+        return None
+    says = best.meaning.explanation(environment)
+    return Question("reading", f'"{passed_over}" is not understood; do you mean: {says}?', (str(best.query),), (says,))
 
 
 def _either(readings: Sequence[Understanding], taught: Taught, environment: Environment) -> Question | None:

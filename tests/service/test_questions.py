@@ -13,6 +13,7 @@ from service.understanding import Meaning, Understanding
 
 TOYS = load_environment(dict(builtin_environments())["toys"])
 NOTHING_TAUGHT = Taught.of(0, {})
+TEXT = "catch it"
 
 
 def reading(query: str, ltl: str, confidence: float) -> Understanding:
@@ -21,7 +22,7 @@ def reading(query: str, ltl: str, confidence: float) -> Understanding:
 
 
 def asked(*readings: Understanding) -> Question | None:
-    return question_of(readings, NOTHING_TAUGHT, TOYS)
+    return question_of(TEXT, readings, NOTHING_TAUGHT, TOYS)
 
 
 PICK = ("pickup(sphere)", "F holding(sphere)")
@@ -48,7 +49,7 @@ def test_a_single_improbable_reading_is_to_be_confirmed() -> None:
     assert question is not None
     assert (question.about, question.choices) == ("reading", ("pickup(sphere)",))
     assert question.text == "do you mean: eventually the robot is holding the sphere?"
-    (left,) = answered("catch it", [doubtful], [Answer("pickup(sphere)")], NOTHING_TAUGHT, TOYS)
+    (left,) = answered(TEXT, [doubtful], [Answer("pickup(sphere)")], NOTHING_TAUGHT, TOYS)
     assert left.confidence == 1.0
     assert asked(left) is None
     assert asked(reading(*PICK, 0.3)) is None

@@ -123,6 +123,18 @@ def test_a_missing_argument_is_asked_for(client: httpx.Client, text: str, enviro
         assert settled["ltl"] == grounded["ltl"]
 
 
+def test_how_often_is_not_passed_over(client: httpx.Client) -> None:
+    text = "Visit the museum twice"
+    answer = ask(client, text, "city")
+    assert (answer["outcome"], answer["contextual_query"]["text"]) == ("ambiguous", "navigate_one(museum)")
+    assert '"twice" is not understood' in answer["question"]["text"]
+    assert ask(client, text, "city", {"choice": "navigate_one(museum)"})["outcome"] == "translated"
+    taught = {"contextual_query": "visit_twice(museum)", "ltl": "F (at(robot, museum) & X F at(robot, museum))"}
+    client.post("/learn", json={**taught, "environment": "city", "examples": [text]}).raise_for_status()
+    assert ask(client, "visit the zoo twice", "city")["outcome"] == "translated"
+    client.delete("/templates/visit_twice")
+
+
 def test_what_may_be_too_many_things_is_not_asked_for(client: httpx.Client) -> None:
     answer = ask(client, "go to", "navigation")
     assert (answer["outcome"], answer["question"]) == ("unknown", None)
