@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from models.errors import Place
-from models.language.measures import measure
+from models.language.unsayable import unsayable
 from models.queries import (
     AmbiguousGroundingError,
     ContextualQuery,
@@ -147,15 +147,15 @@ def _called(
 
 
 def _confirmation(text: str, best: Understanding, taught: Taught, environment: Environment) -> Question | None:
-    """Whether a reading that is not certain is meant without what the text says besides: how often or how long, which
-    no query says. An utterance that a task was taught with may.
+    """Whether a reading that is not certain is meant without what the text says besides and no query can: how often,
+    how long, or under which condition. An utterance that a task was taught with may.
     """
     if best.query is None or best.meaning is None or best.confidence >= 1.0:
         return None
-    passed_over = measure(text, best.query)
+    passed_over = unsayable(text, best.query)
     stored = [taught.stored[task.task] for _, task in best.query.tasks if task.task in taught.stored]
     said = (example.text for template in stored for example in template.examples)
-    if passed_over is None or any(measure(example, best.query) == passed_over for example in said):
+    if passed_over is None or any(unsayable(example, best.query) == passed_over for example in said):
         return None
     says = best.meaning.explanation(environment)
     return Question("reading", f'"{passed_over}" is not understood; do you mean: {says}?', (str(best.query),), (says,))

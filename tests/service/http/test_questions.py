@@ -135,6 +135,14 @@ def test_how_often_is_not_passed_over(client: httpx.Client) -> None:
     client.delete("/templates/visit_twice")
 
 
+def test_conditions_are_not_passed_over(client: httpx.Client) -> None:
+    question = ask(client, "Go to the zoo unless it is closed", "city")["question"]
+    assert (
+        question["text"] == '"unless it is closed" is not understood; do you mean: eventually the robot is at the zoo?'
+    )
+    assert ask(client, "Go to the zoo if it is no trouble", "city")["outcome"] == "translated"
+
+
 def test_what_may_be_too_many_things_is_not_asked_for(client: httpx.Client) -> None:
     answer = ask(client, "go to", "navigation")
     assert (answer["outcome"], answer["question"]) == ("unknown", None)

@@ -1,0 +1,63 @@
+"""How often, how long and under which condition, on cases worked out by hand, and on the polite frames of training."""
+
+from __future__ import annotations
+
+import pytest
+
+from models.language.dataset.asides import asides
+from models.language.dataset.half import Half
+from models.language.dataset.speech import frames
+from models.language.unsayable import unsayable
+from models.queries import parse_query
+
+ZOO = parse_query("navigate_one(zoo)")
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("Visit the museum twice!", "twice"),
+        ("go to the zoo three times", "three times"),
+        ("go to the zoo 2 more times", "2 more times"),
+        ("stay at the zoo for ten minutes", "for ten minutes"),
+        ("be at the zoo in 5 minutes", "in 5 minutes"),
+        ("be at the zoo within 2 hours", "within 2 hours"),
+        ("If it is open, go to the zoo", "if it is open"),
+        ("go to the zoo unless it's closed", "unless it's closed"),
+        ("if the red light is on, go to the zoo", "if the red light is on"),
+        ("go to the zoo if it rains", "if it rains"),
+        ("keep away from the zoo at all times", None),
+        ("sometimes go to the zoo", None),
+        ("if you have a minute, go to the zoo", None),
+        ("go to the zoo if it isn't too much trouble", None),
+        ("if that is okay, go to the zoo", None),
+        ("if possible, go to the zoo", None),
+        ("go to the zoo", None),
+    ],
+)
+def test_what_no_query_says(text: str, found: str | None) -> None:
+    assert unsayable(text, ZOO) == found
+
+
+def test_a_name_is_no_measure() -> None:
+    query = parse_query("then(navigate_one(zoo), navigate_one(cafe in two minutes))")
+    assert unsayable("go to the zoo, then the cafe in two minutes", query) is None
+    assert unsayable("go to the zoo twice, then the cafe in two minutes", query) == "twice"
+
+
+def test_a_choice_is_no_condition() -> None:
+    query = parse_query("or(navigate_one(zoo), navigate_one(park))")
+    assert unsayable("go to the zoo if it is open, else the park", query) is None
+    assert unsayable("go to the zoo or the park", query) is None
+    assert unsayable("go to the zoo if the park is closed", query) == "if the park is closed"
+
+
+@pytest.mark.parametrize("half", list(Half))
+def test_politeness_reasons_and_remarks_are_no_conditions(half: Half) -> None:
+    polite, beside = frames(half), asides(half)
+    said = [frame.format("go to the zoo") for frame in (*polite.calls, *polite.requests, *polite.closings)]
+    said += [f"{reason} go to the zoo".format(object="the bag", place="the zoo") for reason in beside.reasons_before]
+    after = (*beside.reasons_after, *beside.asides, *beside.purposes)
+    said += [f"go to the zoo, {remark}".format(object="the bag", place="the zoo") for remark in after]
+    assert len(said) > 100
+    assert [text for text in said if unsayable(text, ZOO) is not None] == []
