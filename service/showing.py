@@ -48,7 +48,7 @@ def animate(answer: Mapping[str, Any], spec: Mapping[str, Any], path: Path) -> s
     try:
         write_gif(path, [_frame(environment, steps, number) for number in range(len(steps))])
     except ImportError:
-        return "--gif needs Pillow: pip install 'cqltl[gif]'"
+        return f"--gif needs Pillow: {sys.executable} -m pip install pillow"
     except OSError as error:
         return f"{path}: {error}"
     return None

@@ -38,6 +38,11 @@ _STYLE = """
     circle { fill: #ffffff; stroke: #1a1a1a; stroke-width: 1.5; } rect { fill: #ffffff; }
     .accepting { fill: #d9f2df; } .rejecting { fill: #f6dcdc; stroke-dasharray: 4 3; }
     .arrow { fill: none; stroke: #4a4a4a; stroke-width: 1.2; marker-end: url(#head); } marker { fill: #4a4a4a; }
+    @media (prefers-color-scheme: dark) {
+    text { fill: #f5f7fa; } circle { fill: #1b242d; stroke: #f5f7fa; } rect { fill: #1b242d; }
+    .accepting { fill: #1f4d2e; } .rejecting { fill: #5a2a2a; }
+    .arrow { stroke: #c3ced9; } marker { fill: #c3ced9; }
+    }
 """
 _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 

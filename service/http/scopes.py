@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-OPEN = frozenset({"livez", "readyz", "docs", "openapi.json", "static-offline-docs", ""})
+OPEN = frozenset({"livez", "readyz", "docs", "openapi.json", "static", "static-offline-docs", ""})
 """First parts of paths that need no key: whether the service is well, and what it is. The last one is the page."""
 
 UNLIMITED = frozenset({"livez", "readyz", "metrics"})

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import httpx
 import pytest
 
+from benchmarks.server import serving
+from service.keys import add_key
 from tests.page.conftest import SCREENSHOTS, Open, command, faster, said
 from tests.world.worlds import TINY
 
@@ -192,6 +195,56 @@ def test_slip_is_changed_by_a_slider(visit: Open) -> None:
         for text in (before, page.locator("#promise").inner_text())
     ]  # type: ignore[index]
     assert steps[1] > steps[0]
+
+
+def test_a_world_is_planned_with_the_slip_that_it_has(visit: Open, site: httpx.Client) -> None:
+    toys = site.get("/environments/toys-4x1-sphere").json()["spec"]
+    slipping = toys | {"name": "slipping", "parameters": {**toys.get("parameters", {}), "slip": 0.123}}
+    assert site.put("/environments/slipping", json=slipping).status_code in (200, 201)
+    page = visit("slipping")
+    command(page, "Pickup the sphere")
+    page.wait_for_selector("#promise:not([hidden])")
+    assert page.locator("#slip-value").inner_text() == "12.3 %"
+    assert '"environment":"slipping"' in page.locator("#plan-curl pre").text_content()
+
+
+def test_a_reading_is_confirmed_or_not(visit: Open) -> None:
+    page = visit("city")
+    command(page, "Visit the museum twice")
+    page.wait_for_selector("#question:not([hidden])")
+    assert page.locator("#question-text").inner_text().startswith('"twice" is not understood')
+    page.get_by_role("button", name="None of these").click()
+    assert page.locator("#question").is_hidden()
+    assert page.locator("#command-problem").inner_text() == "Say it in other words, or teach it below."
+    assert page.evaluate("document.activeElement.id") == "command"
+
+
+def test_what_is_left_out_is_asked_for(visit: Open) -> None:
+    page = visit()
+    faster(page)
+    command(page, "Switch on the")
+    page.get_by_role("button", name="The washing machine is switched on").click()
+    said(page, "Done: the task holds")
+
+
+def test_a_service_that_asks_for_keys_is_used_with_one(browser: Any, tmp_path: Path) -> None:
+    key = add_key(tmp_path / "keys", "visitor", ["read", "translate", "plan"])
+    with serving(tmp_path / "data", CQLTL_API_KEYS_FILE=str(tmp_path / "keys")) as guarded:
+        context = browser.new_context(reduced_motion="reduce")
+        page = context.new_page()
+        page.goto(str(guarded.base_url))
+        page.wait_for_selector("#key-form:not([hidden])")
+        page.fill("#key", key)
+        page.press("#key", "Enter")
+        page.wait_for_selector("body[data-ready]")
+        assert page.locator("#key-form").is_hidden()
+        faster(page)
+        command(page, SHIP)
+        said(page, "Done: the task holds")
+        shown = page.locator("#plan-curl pre").text_content()
+        assert key not in shown
+        assert "$CQLTL_API_KEY" in shown
+        context.close()
 
 
 def test_values_and_arrows_are_those_of_the_policy(visit: Open, site: httpx.Client) -> None:

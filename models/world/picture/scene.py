@@ -103,7 +103,14 @@ def _thing(name: str, spot: Spot, layout: Layout, state: State) -> Group:
             status = ", ".join(map(shown, values.values()))
             data["status"] = " ".join(values)
             parts.append(Text(0, 34.5, status, "status", 9.5, middle=True, bold=True, data={"part": "status"}))
-    return Group(parts, spot.x, spot.y, spot.scale, kind, shown(name), data)
+    return Group(parts, spot.x, spot.y, spot.scale, kind, _described(name, layout), data)
+
+
+def _described(name: str, layout: Layout) -> str:
+    """A thing and what never changes of it, so that its colour is not only to be seen: "cup: red"."""
+    values = layout.attributes.get(name, {}).values()
+    plain = [shown(value) for value in values if value not in layout.attributes and value != name]
+    return f"{shown(name)}: {', '.join(plain)}" if plain else shown(name)
 
 
 def _named(value: str, layout: Layout) -> bool:

@@ -17,9 +17,19 @@ export class Problem extends Error {
   }
 }
 
+let key = sessionStorage.getItem("cqltl-key") ?? ""; // an API key, for services that ask for one
+
+/** Send an API key from now on, until the tab is closed. */
+export function useKey(text) {
+  key = text;
+  sessionStorage.setItem("cqltl-key", key);
+}
+
+const allowed = (headers) => ({ ...headers, ...(key && { Authorization: `Bearer ${key}` }) });
+
 /** Status and body; JSON where it is JSON. Throws `Problem`. */
 export async function request(method, path, body, { headers = {}, signal } = {}) {
-  const options = { method, headers: { ...headers }, signal };
+  const options = { method, headers: allowed(headers), signal };
   if (body !== undefined) {
     options.headers["Content-Type"] = "application/json";
     options.body = JSON.stringify(body);
@@ -37,11 +47,37 @@ export async function request(method, path, body, { headers = {}, signal } = {})
   return { status: response.status, body: found };
 }
 
+/** The server-sent events of a stream, `{name, data}`; it is asked for again where it breaks off. */
+export async function* events(path) {
+  for (let failures = 0; ; failures++) {
+    try {
+      const response = await fetch(path, { headers: allowed({ Accept: "text/event-stream" }) });
+      if (!response.ok) throw new Problem(await response.json());
+      let text = "";
+      const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+      for (let { done, value } = await reader.read(); !done; { done, value } = await reader.read()) {
+        const messages = (text + value.replaceAll("\r", "")).split("\n\n");
+        text = messages.pop();
+        for (const message of messages) {
+          const field = (name) => message.split("\n").find((line) => line.startsWith(`${name}: `))?.slice(name.length + 2);
+          if (field("data") === undefined) continue;
+          failures = 0;
+          yield { name: field("event"), data: JSON.parse(field("data")) };
+        }
+      }
+    } catch (error) {
+      if (error instanceof Problem || failures >= 5) throw error instanceof Problem ? error : new Problem({ detail: "the service stopped telling how far the plan is" });
+    }
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+  }
+}
+
 const quoted = (text) => `'${text.replaceAll("'", "'\\''")}'`;
 
 /** The curl command (7.82 or newer) of a request. */
 export function curl(method, path, body, headers = {}) {
   const parts = ["curl"];
+  if (key) parts.push('--header "Authorization: Bearer $CQLTL_API_KEY"');
   for (const [name, value] of Object.entries(headers)) parts.push(`--header ${quoted(`${name}: ${value}`)}`);
   if (body !== undefined) parts.push(`--json ${quoted(JSON.stringify(body))}`);
   if (!(method === "GET" || (method === "POST" && body !== undefined))) parts.push(`--request ${method}`);

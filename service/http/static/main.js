@@ -1,6 +1,6 @@
 // The page: a command goes from the sentence to a run in the world.
 
-import { Problem, request, tellCurl } from "./api.js";
+import { Problem, request, tellCurl, useKey } from "./api.js";
 import { hideAutomaton, light, showAutomaton } from "./automaton.js";
 import { byId, make, show, shown, tell } from "./dom.js";
 import { HEADERS, hidePromise, plan, showPromise } from "./planning.js";
@@ -15,6 +15,7 @@ const FIRST = ["house", "warehouse", "city", "toys", "navigation"]; // the order
 let environment = null; // as stored: name, spec, samples
 let initial = {}; // its state at first
 let start = null; // where things were moved before anything was planned; null: nowhere
+let slip = null; // where the visitor set it; null: as the world has it
 let asked = null; // the command that is planned: {text, answers}
 let current = null; // its plan
 let policy = null; // the whole of it, once values or arrows were asked for
@@ -44,9 +45,10 @@ async function enter(name) {
   show(document.querySelector(".samples"), environment.samples.length > 0);
   byId("command").placeholder = environment.samples[0] ?? "";
   offer(environment.spec.lessons?.[0]);
-  const slip = environment.spec.parameters?.slip;
-  show(byId("slip-field"), slip !== undefined);
-  if (slip !== undefined) setSlip(slip);
+  slip = null;
+  const usual = environment.spec.parameters?.slip;
+  show(byId("slip-field"), usual !== undefined);
+  if (usual !== undefined) showSlip(usual);
   history.replaceState(null, "", `#${encodeURIComponent(name)}`);
 }
 
@@ -61,9 +63,9 @@ async function draw() {
   show(document.querySelector(".more"), world.drawn);
 }
 
-function setSlip(value) {
+function showSlip(value) {
   byId("slip").value = value;
-  byId("slip-value").textContent = `${Math.round(100 * value)} %`;
+  byId("slip-value").textContent = `${+(100 * value).toFixed(1)} %`;
 }
 
 /** Forget the plan, and put the world back. */
@@ -117,9 +119,17 @@ function ask(question) {
     return make("button", { type: "button", onclick: () => say(asked.text, [...asked.answers, answer]) }, label,
       question.about === "thing" && says !== choice ? make("span", { class: "note" }, says.replace(`${choice}: `, "")) : null);
   });
-  byId("choices").replaceChildren(...buttons);
+  const none = make("button", { type: "button", class: "plain", onclick: () => otherwise() }, "None of these");
+  byId("choices").replaceChildren(...buttons, none);
   show(byId("question"));
   buttons[0].focus();
+}
+
+/** Nothing that was offered is meant. */
+function otherwise() {
+  show(byId("question"), false);
+  tell("command-problem", "Say it in other words, or teach it below.");
+  byId("command").focus();
 }
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -156,10 +166,8 @@ async function perform(what, signal) {
 
 /** The world to plan in: by name, or written out where the slip is another. */
 function place() {
-  const slip = environment.spec.parameters?.slip;
-  const wanted = Number(byId("slip").value);
-  if (slip === undefined || Math.abs(slip - wanted) < 1e-9) return { environment: environment.name };
-  return { environment_spec: { ...environment.spec, parameters: { ...environment.spec.parameters, slip: wanted } } };
+  if (slip === null || slip === environment.spec.parameters.slip) return { environment: environment.name };
+  return { environment_spec: { ...environment.spec, parameters: { ...environment.spec.parameters, slip } } };
 }
 
 function badge(found) {
@@ -271,7 +279,10 @@ byId("back").addEventListener("click", () => {
   byId("status").textContent = "Everything is where it was at first.";
 });
 
-byId("slip").addEventListener("input", () => setSlip(Number(byId("slip").value)));
+byId("slip").addEventListener("input", () => {
+  slip = Number(byId("slip").value);
+  showSlip(slip);
+});
 byId("slip").addEventListener("change", () => asked && current && say(asked.text, asked.answers));
 
 async function overlay() {
@@ -309,7 +320,7 @@ byId("theme").addEventListener("click", () => {
 });
 
 const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) : FIRST.length);
-try {
+async function begin() {
   const { items } = (await request("GET", "/environments?limit=200")).body;
   const names = items.map((item) => item.name).sort((one, two) => rank(one) - rank(two) || one.localeCompare(two));
   byId("world-name").replaceChildren(...names.map((name) => make("option", { value: name }, name)));
@@ -317,6 +328,22 @@ try {
   byId("world-name").value = names.includes(wanted) ? wanted : names[0];
   await enter(byId("world-name").value);
   document.body.dataset.ready = "true";
-} catch (error) {
-  refuse(error, "command-problem");
 }
+
+/** Begin, with an API key where the service asks for one. */
+async function admitted() {
+  tell("command-problem");
+  try {
+    await begin();
+    show(byId("key-form"), false);
+  } catch (error) {
+    show(byId("key-form"), error.slug === "unauthorized");
+    refuse(error, "command-problem");
+  }
+}
+byId("key-form").addEventListener("submit", (event) => {
+  event.preventDefault();
+  useKey(byId("key").value.trim());
+  admitted();
+});
+await admitted();

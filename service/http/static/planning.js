@@ -1,6 +1,6 @@
 // Asking for a plan: at once where it is quick, else as a job with its progress and a way to cancel it.
 
-import { Problem, request } from "./api.js";
+import { Problem, events, request } from "./api.js";
 import { byId, make, show } from "./dom.js";
 
 const WAIT = { Prefer: "wait=1" };
@@ -28,23 +28,21 @@ async function ended(job, signal) {
   cancelled = stop;
   signal?.addEventListener("abort", stop);
   try {
-    const end = await new Promise((resolve, reject) => {
-      const events = new EventSource(`${job.url}/events`);
-      events.addEventListener("progress", (event) => tellProgress(JSON.parse(event.data)));
-      events.addEventListener("end", (event) => {
-        events.close();
-        resolve(JSON.parse(event.data));
-      });
-      events.onerror = () => {
-        if (events.readyState === EventSource.CLOSED) reject(new Problem({ detail: "the service stopped telling how far the plan is" }));
-      };
-    });
+    const end = await lastOf(`${job.url}/events`);
     if (end.state === "failed") throw new Problem(end.error);
     return end.state === "cancelled" ? null : end.plan;
   } finally {
     cancelled = null;
     signal?.removeEventListener("abort", stop);
     show(byId("progress"), false);
+  }
+}
+
+/** The job as it ended; until then its progress is shown. */
+async function lastOf(stream) {
+  for await (const { name, data } of events(stream)) {
+    if (name === "end") return data;
+    if (name === "progress") tellProgress(data);
   }
 }
 

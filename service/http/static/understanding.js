@@ -48,10 +48,14 @@ const sentence = (text) => (text ? text[0].toUpperCase() + text.slice(1) + "." :
 /** The sentence with the phrases marked that the arguments are, numbered. */
 function marked(text, bindings) {
   const found = [];
-  bindings.forEach((binding, index) => {
-    const start = text.toLowerCase().indexOf(binding.phrase.toLowerCase());
-    const free = start >= 0 && found.every((other) => start >= other.end || start + binding.phrase.length <= other.start);
-    if (free) found.push({ start, end: start + binding.phrase.length, number: index + 1 });
+  bindings.forEach(({ phrase }, index) => {
+    const literal = phrase.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+    for (const match of text.matchAll(new RegExp(`(?<![\\p{L}\\p{N}])${literal}(?![\\p{L}\\p{N}])`, "giu"))) {
+      const [start, end] = [match.index, match.index + match[0].length];
+      if (!found.every((other) => start >= other.end || end <= other.start)) continue;
+      found.push({ start, end, number: index + 1 });
+      break;
+    }
   });
   found.sort((one, two) => one.start - two.start);
   const parts = [];

@@ -37,6 +37,9 @@ export class World {
       this.over = document.createElementNS(SVG, "g");
       this.over.setAttribute("class", "over");
       this.svg.querySelector(".way").before(this.over);
+      this.said = document.createElementNS(SVG, "g"); // above the things: it must be read
+      this.said.setAttribute("class", "over");
+      this.svg.querySelector(".things").after(this.said);
       for (const [name, group] of this.things) if (!group.dataset.fixed) this.#drag(name, group);
     }
     this.show(state);
@@ -194,14 +197,15 @@ export class World {
   /** Values and arrows over the cells: `[{cell, heat, text, arrow}]`, heat from 0 (far) to 1 (there). */
   overlay(items) {
     if (!this.drawn) return;
-    this.over.replaceChildren(...items.flatMap(({ cell, heat, text, arrow }) => {
+    this.over.replaceChildren(...items.filter(({ heat }) => heat !== undefined).map(({ cell, heat }) => {
+      const [left, top] = this.cells.get(cell);
+      const rect = shape("rect", { x: left + 2, y: top + 2, width: CELL - 4, height: CELL - 4, class: "heat" });
+      rect.style.fillOpacity = 0.05 + 0.45 * heat;
+      return rect;
+    }));
+    this.said.replaceChildren(...items.flatMap(({ cell, text, arrow }) => {
       const [left, top] = this.cells.get(cell);
       const parts = [];
-      if (heat !== undefined) {
-        const rect = shape("rect", { x: left + 2, y: top + 2, width: CELL - 4, height: CELL - 4, class: "heat" });
-        rect.style.fillOpacity = 0.05 + 0.45 * heat;
-        parts.push(rect);
-      }
       if (text) parts.push(shape("text", { x: left + CELL - 6, y: top + 84, class: "value" }, text));
       if (arrow.length > 1) parts.push(shape("text", { x: left + 5, y: top + 90, class: "doing" }, arrow));
       else if (arrow) parts.push(shape("text", { x: left + 7, y: top + 92, class: "arrow-sign" }, arrow));
