@@ -24,6 +24,10 @@ cqltl serves {url}  (open it in a browser; documentation: {url}/docs; store: {st
 """
 
 
+GRACE_S = 3
+"""Seconds that requests get to end where the service stops; a plan that is waited for is then broken off."""
+
+
 class _Server(uvicorn.Server):
     """Says where it listens once it does, and tells open streams when it is about to stop."""
 
@@ -57,7 +61,7 @@ def serve(settings: Settings, listener: socket.socket) -> None:
         app,
         log_config=None,
         access_log=False,
-        timeout_graceful_shutdown=10,
+        timeout_graceful_shutdown=GRACE_S,
         timeout_keep_alive=settings.keep_alive_s,
         h11_max_incomplete_event_size=settings.max_head_bytes,
         http=protocol_of(settings),

@@ -60,7 +60,9 @@ class Settings(BaseSettings):
     logic_timeout_s: float = Field(5.0, gt=0, description="Longest time to check a formula, in seconds.")
     log_format: LogFormat = Field("text", description="`text` for people, `json` for a line of JSON each.")
     log_level: LogLevel = Field("warning", description="The least that is logged; `info` has a line for each request.")
-    worker_metrics_port: int = Field(0, ge=0, le=65535, description="Port of `cqltl worker` for metrics; 0 opens none.")
+    worker_metrics_port: int = Field(
+        0, ge=0, le=65535, description="Port of `cqltl worker` for metrics, which it tells without a key; 0 opens none."
+    )
     max_states: int = Field(50_000_000, ge=1, description="Most product states a request may ask for.")
 
     @field_validator("database_url")

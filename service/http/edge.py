@@ -57,7 +57,7 @@ class Edge:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]
-                _complete(MutableHeaders(scope=message), request_id)
+                complete(MutableHeaders(scope=message), request_id)
             await send(message)
 
         try:
@@ -82,7 +82,8 @@ class Edge:
             _log.log(level, "%s %s %d in %.1f ms", *list(fields.values())[:4], extra={"fields": fields})
 
 
-def _complete(headers: MutableHeaders, request_id: str) -> None:
+def complete(headers: MutableHeaders, request_id: str) -> None:
+    """Put in what every answer has."""
     headers["X-Request-Id"] = request_id
     for name, value in _HEADERS.items():
         headers.setdefault(name, value)

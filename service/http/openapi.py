@@ -30,6 +30,9 @@ _NAMED: dict[str, tuple[str, dict[str, Any]]] = {
 """Schemas that FastAPI writes out where they are used. Generators would make a type of each use, with odd names."""
 
 
+_RETRY_AFTER = {"schema": {"type": "integer"}, "description": "Seconds until it is worth asking again."}
+
+
 def openapi(app: FastAPI) -> dict[str, Any]:
     """The document of the app, made once."""
     if app.openapi_schema is None:
@@ -61,6 +64,8 @@ def _document_problems(document: dict[str, Any]) -> None:
                     response["content"] = {MEDIA_TYPE: {"schema": _PROBLEM}}
                     if response["description"] == "Validation Error":
                         response["description"] = "`validation`"
+                if status in ("429", "503"):
+                    response["headers"] = {"Retry-After": _RETRY_AFTER}
             responses["default"] = {
                 "description": "Any other problem.",
                 "content": {MEDIA_TYPE: {"schema": _PROBLEM}},

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
+import uuid
 from dataclasses import dataclass
 from http import HTTPStatus
 from typing import Any, Literal
@@ -17,6 +18,7 @@ from uvicorn.config import Config
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from uvicorn.server import ServerState
 
+from service.http.edge import complete
 from service.http.problems import problem_response
 from service.settings import Settings
 
@@ -148,6 +150,7 @@ class PatientProtocol(H11Protocol):
             if answering:
                 self.transport.abort()
                 return
+        complete(response.headers, uuid.uuid4().hex)
         self.transport.write(_raw(response))
         self.transport.write_eof()
         self.flow.resume_reading()

@@ -73,6 +73,7 @@ class JobRunner:
     def start(self) -> None:
         """Begin to renew leases."""
         self._spawn(self._tend())
+        self._spawn(self._guard())
 
     async def stop(self) -> None:
         """Kill what runs, and leave the jobs to whoever takes them up."""
@@ -190,6 +191,11 @@ class JobRunner:
                 await self.blocking(self._renew_leases)
             except SQLAlchemyError as error:
                 _log.warning("the store does not answer: %s", error)
+
+    async def _guard(self) -> None:
+        """Kill what is beyond its deadline, and what may soon be another's, also while the store leaves one waiting."""
+        while not self._stopping:
+            await asyncio.sleep(TICK_S)
             now = time.monotonic()
             for followed in self._followed.values():
                 followed.overdue = followed.overdue or now > followed.ends_at

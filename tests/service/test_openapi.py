@@ -152,3 +152,10 @@ def test_whoever_needs_a_key_can_read_so(document: dict[str, Any]) -> None:
     assert {"401", "403", "408", "429", "503"} <= set(plan["responses"])
     assert "security" not in live
     assert not {"401", "403", "408", "429"} & set(live["responses"])
+
+
+def test_whoever_is_to_ask_again_is_told_when(document: dict[str, Any]) -> None:
+    for path, item in document["paths"].items():
+        for method, operation in item.items():
+            for status in {"429", "503"} & operation["responses"].keys():
+                assert "Retry-After" in operation["responses"][status]["headers"], (method, path, status)

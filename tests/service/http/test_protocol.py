@@ -51,6 +51,8 @@ def problem(answer: bytes) -> tuple[int, str]:
     head, _, body = answer.partition(b"\r\n\r\n")
     assert b"content-type: application/problem+json" in head.lower()
     assert b"connection: close" in head.lower()
+    for name in (b"x-request-id: ", b"x-content-type-options: nosniff", b"content-security-policy: default-src 'none'"):
+        assert b"\r\n" + name in head.lower()
     found = json.loads(body)
     assert int(head.split()[1]) == found["status"]
     return found["status"], found["type"].rpartition(":")[2]

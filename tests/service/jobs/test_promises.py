@@ -5,11 +5,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import signal
 import statistics
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import httpx
 import pytest
 
 from benchmarks.processes import children, computing, gone_within
@@ -157,11 +160,17 @@ def test_a_plan_that_needs_too_much_memory_is_refused_and_the_next_one_is_planne
     assert quick.status_code == 200
 
 
-def test_an_open_stream_does_not_keep_a_service_from_stopping(deploy: Deploy) -> None:
+def test_what_is_open_does_not_keep_a_service_from_stopping(deploy: Deploy) -> None:
     deployment = deploy()
     url = order(deployment.client, ENDLESS)
     time.sleep(2)  # it loads for a while after it has begun to listen
-    with deployment.client.stream("GET", f"{url}/events") as response:
+
+    def wait_for_a_plan() -> None:
+        with contextlib.suppress(httpx.HTTPError):
+            deployment.client.post("/plan", json=ENDLESS, headers={"Prefer": "wait=60"})
+
+    with ThreadPoolExecutor(1) as others, deployment.client.stream("GET", f"{url}/events") as response:
+        others.submit(wait_for_a_plan)
         lines = response.iter_lines()
         assert "retry: 1000" in [next(lines) for _ in range(3)]
         began = time.monotonic()
