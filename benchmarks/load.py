@@ -10,6 +10,8 @@ the service gives its answer again. "Never heard" is the other end: the service 
 
 For the latency, requests are sent at fixed times, whatever became of those before (an open loop); each is timed from
 when it was due, so a queue that builds up is seen. Load generator and service share the machine's cores.
+
+The exit status is 1 where a request failed, or where a share or a latency is not what `PROMISED` says.
 """
 
 from __future__ import annotations
@@ -49,6 +51,8 @@ WORDINGS = (
     "fetch the {thing} and then go to the {room}",
 )
 PLACES = (("/translate", None), ("/translate in an environment", "toys"))
+PROMISED = {"/policies/{id}/step": (0.70, 10.0), "/translate, heard before": (0.40, 50.0)}
+"""The least share of what the empty endpoint serves, and the most milliseconds of the 99th percentile at half load."""
 WRK = """
 local bodies = {}
 for line in io.lines("BODIES") do bodies[#bodies + 1] = line end
@@ -218,6 +222,18 @@ def measure(request: str, url: str, sent: Sequence[str], empty: str, seconds: fl
     return Row(request, served, idle, errors, statistics.median(taken), _p99(taken), _p99(nothing))
 
 
+def broken(rows: Sequence[Row]) -> list[str]:
+    """What is not as promised."""
+    found = [f"{row.request}: {row.errors} errors" for row in rows if row.errors]
+    for row in rows:
+        share, p99_ms = PROMISED.get(row.request, (0.0, float("inf")))
+        if row.served < share * row.empty:
+            found.append(f"{row.request}: {row.served / row.empty:.0%} of an empty endpoint, not {share:.0%}")
+        if row.half_p99_ms > p99_ms:
+            found.append(f"{row.request}: p99 of {row.half_p99_ms:.0f} ms at half load, not {p99_ms:.0f} ms")
+    return found
+
+
 def _p99(taken: Sequence[float]) -> float:
     return statistics.quantiles(taken, n=100)[98]
 
@@ -257,6 +273,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         )
     if options.json:
         options.json.write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n", encoding="utf-8")
+    if found := broken(rows):
+        sys.exit("\n".join(found))
 
 
 def step(client: httpx.Client) -> tuple[str, list[str]]:

@@ -4,7 +4,8 @@
 
 Opens so many sockets of five kinds to a server of its own: nothing sent, half a head, a head that drips, half a body, a
 body that drips. Sends ordinary requests meanwhile until the server has closed every socket. Prints how long sockets of
-each kind were open, at most, and the latencies of POST /translate and GET /livez alone and meanwhile.
+each kind were open, at most, and the latencies of POST /translate and GET /livez alone and meanwhile. The exit status is
+1 where a socket was open for more than 10 s, or where more than one ordinary request in a hundred took over 100 ms.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import argparse
 import selectors
 import socket
 import statistics
+import sys
 import threading
 import time
 from collections.abc import Mapping, Sequence
@@ -22,6 +24,8 @@ import httpx
 from benchmarks.server import serving
 
 HEAD = b"POST /translate HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 50000\r\n"
+LONGEST_S = 10.0
+SLOW_MS = 100.0
 KINDS: Mapping[str, tuple[bytes, bytes]] = {  # what is sent at once, and what drips
     "idle": (b"", b""),
     "half head": (HEAD[:60], b""),
@@ -90,6 +94,17 @@ def timed(client: httpx.Client, over: threading.Event, least: int) -> dict[str, 
     return taken
 
 
+def broken(open_s: Mapping[str, Sequence[float]], latencies_ms: Mapping[str, Sequence[float]]) -> list[str]:
+    """What is not as promised, of sockets and of ordinary requests."""
+    late = [f"{kind}: open for {max(seconds):.1f} s" for kind, seconds in open_s.items() if max(seconds) > LONGEST_S]
+    slow = [f"{name}: p99 of {p99:.0f} ms" for name, taken in latencies_ms.items() if (p99 := _p99(taken)) > SLOW_MS]
+    return late + slow
+
+
+def _p99(taken: Sequence[float]) -> float:
+    return statistics.quantiles(taken, n=100)[98]
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0] if __doc__ else None)
@@ -116,6 +131,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for when, latencies in (("alone", alone), ("meanwhile", meanwhile)):
         for name, taken in latencies.items():
             print(f"{name} {when}: median {statistics.median(taken):.1f} ms, worst of {len(taken)} {max(taken):.1f} ms")
+    if faults := broken(found, meanwhile):
+        sys.exit("\n".join(faults))
 
 
 if __name__ == "__main__":

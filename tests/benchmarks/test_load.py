@@ -10,7 +10,7 @@ import time
 import httpx
 import pytest
 
-from benchmarks.load import bodies, empty_endpoint, paced, saturate
+from benchmarks.load import Row, bodies, broken, empty_endpoint, paced, saturate
 
 
 def test_the_texts_differ_and_are_the_same_in_every_run() -> None:
@@ -29,6 +29,15 @@ def test_the_yardstick_answers_and_can_be_saturated() -> None:
         served, errors = saturate(f"{url}/empty", ["{}", '{"a": 1}'], seconds=1, connections=4)
     assert served > 10
     assert errors == 0
+
+
+@pytest.mark.parametrize(
+    ("served", "errors", "p99_ms", "faults"),
+    [(4_000, 0, 20, 0), (3_000, 0, 20, 1), (4_000, 1, 20, 1), (4_000, 0, 60, 1), (3_000, 2, 60, 3)],
+)
+def test_what_is_not_as_promised_is_told(served: float, errors: int, p99_ms: float, faults: int) -> None:
+    row = Row("/translate, heard before", served, 8_000, errors, 1.0, p99_ms, 1.0)
+    assert len(broken([row])) == faults
 
 
 def test_latency_counts_from_when_a_request_was_due() -> None:
