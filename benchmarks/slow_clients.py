@@ -4,8 +4,8 @@
 
 Opens so many sockets of five kinds to a server of its own: nothing sent, half a head, a head that drips, half a body, a
 body that drips. Sends ordinary requests meanwhile until the server has closed every socket. Prints how long sockets of
-each kind were open, at most, and the latencies of POST /translate and GET /livez alone and meanwhile. The exit status is
-1 where a socket was open for more than 10 s, or where more than one ordinary request in a hundred took over 100 ms.
+each kind were open, at most, and the latencies of POST /translate and GET /livez alone and meanwhile. The exit status
+is 1 where a socket was open for more than 10 s, or where more than one ordinary request in a hundred took over 100 ms.
 """
 
 from __future__ import annotations

@@ -66,6 +66,22 @@ def test_a_job_that_was_taken_from_the_queue_in_vain_is_put_there_again_once(
         assert entries(store) == [("a", "plan"), ("b", "plan")]
 
 
+def test_a_job_is_stored_and_queued_together_or_not_at_all(store: Store) -> None:
+    def fails() -> None:
+        with store.write() as transaction:
+            transaction.jobs.add("a", JOB, accepted=True)
+            enqueue(transaction, "a", JOB.queue)
+            raise OSError("the machine fails")
+
+    with pytest.raises(OSError, match="the machine fails"):
+        fails()
+    assert entries(store) == []
+    with store.read() as transaction:
+        assert transaction.connection.execute(text("SELECT count(*) FROM jobs")).scalar_one() == 0
+    add(store, "a")
+    assert entries(store) == [("a", "plan")]
+
+
 @pytest.mark.parametrize("status", ["todo", "doing"])
 def test_what_is_in_the_queue_stays_there_once(store: Store, status: str) -> None:
     add(store, "a")
