@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import pkgutil
 import re
 from pathlib import Path
@@ -67,6 +68,28 @@ def test_every_setting_has_a_meaning_and_every_number_a_unit() -> None:
     assert [name for name in numbers if not units[name]] == []
     assert [name for name in numbers if name.endswith("_S") != (units[name] == "seconds")] == []
     assert [name for name in numbers if name.endswith("_BYTES") != (units[name] == "bytes")] == []
+
+
+def test_fixed_limits_are_what_the_table_says() -> None:
+    rows = rows_under("settings.md", "| constant | value | unit | meaning |")
+    for name, value, unit, meaning in rows:
+        module, _, constant = name.strip("`").rpartition(".")
+        assert str(getattr(importlib.import_module(module), constant)) == value.strip("`"), name
+        assert unit
+        assert set(re.findall(r"`([a-z-]+)`", meaning)) <= set(STATUS), name
+
+
+def test_every_limit_of_commands_queries_and_formulas_is_in_the_table() -> None:
+    said = {row[0].strip("`") for row in rows_under("settings.md", "| constant | value | unit | meaning |")}
+    for module in ("language.tokens", "queries.contextual_query", "logic.formula", "logic.translation"):
+        code = importlib.import_module(f"models.{module}")
+        limits = {f"models.{module}.{name}" for name, value in vars(code).items() if is_limit(name, value)}
+        own = {limit for limit in limits if f"{limit.rpartition('.')[2]} =" in inspect.getsource(code)}
+        assert own <= said, own - said
+
+
+def is_limit(name: str, value: object) -> bool:
+    return name.startswith("MAX_") and isinstance(value, int)
 
 
 def test_no_setting_is_read_elsewhere() -> None:
