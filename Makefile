@@ -3,7 +3,7 @@ VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
 
-.PHONY: serve test promises fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-language bench-teaching bench-planning clean
+.PHONY: serve test promises fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -73,6 +73,9 @@ bench-reliability: $(VENV)/.dev  # 200 kills, 8 writers, 10,000 requests and 500
 
 bench-load: $(VENV)/.dev  # how much can be served, beside an empty endpoint; needs wrk
 	$(BIN)/python -m benchmarks.load
+
+bench-page: $(VENV)/.dev  # how soon the page is painted, and its first plan there; needs Chromium
+	$(BIN)/python -m benchmarks.page
 
 bench-language: $(VENV)/.dev  # commands in people's own words
 	$(BIN)/python -m benchmarks.language
