@@ -136,10 +136,8 @@ def test_how_often_is_not_passed_over(client: httpx.Client) -> None:
 
 
 def test_conditions_are_not_passed_over(client: httpx.Client) -> None:
-    question = ask(client, "Go to the zoo unless it is closed", "city")["question"]
-    assert (
-        question["text"] == '"unless it is closed" is not understood; do you mean: eventually the robot is at the zoo?'
-    )
+    question = ask(client, "Go to the zoo if it is open", "city")["question"]
+    assert question["text"] == '"if it is open" is not understood; do you mean: eventually the robot is at the zoo?'
     assert ask(client, "Go to the zoo if it is no trouble", "city")["outcome"] == "translated"
 
 
