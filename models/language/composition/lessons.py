@@ -40,8 +40,8 @@ NESTED, FEW = 0.08, 10
 so few patterns.
 """
 PLAIN, PLAINEST = 0.2, 6
-"""Part of the texts that are said in one of the first ways of a list, and how many those are: people say it plainly more
-often than in any other of hundreds of ways.
+"""Part of the texts that are said in one of the first ways of a list, and how many those are: people say it plainly
+more often than in any other of hundreds of ways.
 """
 UNMARKED = 0.25
 """Part of the texts without any mark of punctuation."""

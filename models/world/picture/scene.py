@@ -16,6 +16,8 @@ LINE = 22.0
 """Height of a line of a list."""
 WIDE = 0.62
 """Width of a letter, of its height."""
+SIZES = {"tiny": 0.7, "small": 0.82, "little": 0.82, "big": 1.15, "large": 1.15, "huge": 1.25}
+"""How large a thing is drawn that is called so."""
 MOST_CELLS = 2_500
 """Most cells of a picture, and things on it."""
 
@@ -94,11 +96,12 @@ def _thing(name: str, spot: Spot, layout: Layout, state: State) -> Group:
     data = {"object": name, **({"robot": "true"} if name == layout.robot else {})}
     if name in layout.fixtures:
         data["fixed"] = layout.fixtures[name]
-    parts = glyph(name, layout)
+    size = next((SIZES[value] for value in layout.attributes.get(name, {}).values() if value in SIZES), 1.0)
+    parts: list[Shape] = [Group(glyph(name, layout), scale=size)] if size != 1.0 else glyph(name, layout)
     if name != layout.robot:
         values = {a: v for a, v in state.get(name, {}).items() if v not in layout.grid.cells and not _named(v, layout)}
-        size = fitted(shown(name), 9.5, 0.75 if name in layout.fixtures else 1)
-        parts.append(Text(0, 24.5, shown(name), "label", size, middle=True, data={"part": "label"}))
+        letters = fitted(shown(name), 9.5, 0.75 if name in layout.fixtures else 1)
+        parts.append(Text(0, 24.5, shown(name), "label", letters, middle=True, data={"part": "label"}))
         if values:
             status = ", ".join(map(shown, values.values()))
             data["status"] = " ".join(values)

@@ -74,3 +74,14 @@ def test_any_name_that_a_world_may_have_is_drawn(name):
         return
     groups = [group for group in drawn(environment).iter(f"{SVG}g") if group.get("data-object")]
     assert len(groups) == 3
+
+
+def test_what_never_changes_of_a_thing_is_said_and_its_size_is_drawn():
+    groups = {
+        group.get("data-object"): group for group in drawn(WORLDS["toys"]).iter(f"{SVG}g") if group.get("data-object")
+    }
+    assert groups["cylinder"].find(f"{SVG}title").text == "cylinder: red, small"
+    assert groups["robot"].find(f"{SVG}title").text == "robot"
+    scales = {name: group.find(f"{SVG}g").get("transform") for name, group in groups.items() if name != "robot"}
+    assert "scale(0.82)" in scales["cylinder"]
+    assert "scale(1.15)" in scales["bag"]
