@@ -37,9 +37,9 @@ HEARD_OF_THINGS = 0.03
 NEGATED = NEGATIONS | {"no"}
 """Words with which a text may forbid the task that it is near to."""
 FORBIDDEN = 0.5
-"""Probability that a text forbids something, from which it may forbid what it is near to; or that it forbids a part of
-what it says, from which it is near to nothing.
-"""
+"""Probability that a text forbids something, from which it may forbid what it is near to."""
+FORBIDDEN_IN_PART = 0.9
+"""Probability that it forbids a part of what it says, from which it is near to nothing."""
 ASKING = INTERROGATIVES | {"is", "are", "was", "were", "does", "did", "has"}
 """Words with which questions begin."""
 QUESTION = 0.5
@@ -200,7 +200,7 @@ class Hearing:
         negated = not NEGATED.isdisjoint(words(text))
         if negated and not heard:
             heard = composed.several(text, candidates=BEAM_WIDTH, asked=True)
-        if negated and composed.forbids_in_part(text) >= FORBIDDEN:
+        if negated and composed.forbids_in_part(text) >= FORBIDDEN_IN_PART:
             return (), tuple(heard)
         sensible = self._ranked(text, heard, environment)
         likely = [Translation(reading.query, reading.confidence) for reading in sensible]

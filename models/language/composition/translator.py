@@ -148,9 +148,9 @@ class ComposedTranslator:
         is to be done besides. No one task is all of it.
         """
         spoken = marked_words(text)
-        if not WHILE.isdisjoint(spoken):
-            return 1.0
-        shapes, _ = self._shapes(spoken)
+        shapes, refusal = self._shapes(spoken)
+        if not shapes and not WHILE.isdisjoint(spoken):
+            return refusal
         return _part(shapes, lambda shape: forbids(shape) and shape != AVOIDED)
 
     def refuses(self, text: str) -> float:
