@@ -192,7 +192,8 @@ def _description(symbol: Symbol, environment: Environment) -> str:
     is_object = environment.vocabulary.is_object
     static = environment.vocabulary.static.get(symbol, {}).values()
     values = [value.name for value in static if value.name != symbol.name and not is_object(value)]
-    return ", ".join([f"{symbol.name}: a {symbol.kind}", *values]).replace("_", " ")
+    article = "an" if symbol.kind[0] in "aeiou" else "a"
+    return ", ".join([f"{symbol.name}: {article} {symbol.kind}", *values]).replace("_", " ")
 
 
 def _wrong(number: int, member: str, detail: str) -> AnswerError:

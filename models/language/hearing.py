@@ -203,6 +203,8 @@ class Hearing:
         if negated and composed.forbids_in_part(text) >= FORBIDDEN_IN_PART:
             return (), tuple(heard)
         sensible = self._ranked(text, heard, environment)
+        if _senseless(sensible) and any(self.lessons.wordings.translate(part) for part in composed.parts(text)):
+            return (), tuple(heard) if sum(said.confidence for said in heard) > HEARD else ()
         likely = [Translation(reading.query, reading.confidence) for reading in sensible]
         told = tuple(parted(said, likely, own) for said in near)
         if negated and told == tuple(near) and composed.forbids(text) >= FORBIDDEN:

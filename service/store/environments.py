@@ -62,7 +62,7 @@ class EnvironmentRepository:
     def add(self, name: str, kind: str, data: Mapping[str, Any]) -> StoredEnvironment:
         """Store a new environment; raises `EnvironmentExistsError`."""
         if self._connection.scalar(select(environments.c.name).where(environments.c.name == name)) is not None:
-            detail = f'an environment called "{name}" is stored already; PUT replaces it'
+            detail = f'an environment called "{name}" is stored already; PUT replaces it, and `cqltl import --replace`'
             raise EnvironmentExistsError(detail, places=[Place("/name", detail)])
         self._connection.execute(insert(environments).values(name=name, kind=kind, data=dict(data), revision=1))
         raise_version(self._connection, WORLDS)

@@ -50,6 +50,11 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
             "pick up the red parcel and put it on the trolley",
             "F (holding(red_parcel) & colored(red_parcel, red)) & F in(red_parcel, trolley)",
         ),
+        (
+            "house",
+            "when you have switched on all the appliances, go to the kitchen",
+            "F (running(oven) & F at(robot, kitchen)) & F (running(washing_machine) & F at(robot, kitchen))",
+        ),
         ("house", "turn the washing machine off", "F !running(washing_machine)"),
         ("house", "put the cup down in the bedroom", "F at(cup, bedroom)"),
         ("warehouse", "place the small parcel on shelf a", "F in(red_parcel, shelf_a)"),
@@ -97,6 +102,12 @@ def test_a_text_that_forbids_a_part_of_what_it_says_is_not_taken_for_a_task(
 ) -> None:
     found = bench.hearing.readings(text, bench.environments[world], candidates=3)
     assert not any(isinstance(reading.query, ContextualQuery) for reading in found)
+
+
+@pytest.mark.parametrize("text", ["turn on the oven and wave", "switch on the oven, then disinfect the kitchen"])
+def test_a_part_that_is_known_is_not_taken_for_the_whole(bench: Bench, text: str) -> None:
+    found = bench.hearing.readings(text, bench.environments["house"], candidates=3)
+    assert not any(reading.grounded for reading in found)
 
 
 @pytest.mark.parametrize(

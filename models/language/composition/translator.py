@@ -36,6 +36,8 @@ NAMES = ("composition-0", "composition-1")
 """The networks that read how clauses belong together."""
 SEQUENCE = "then("
 """How the shapes of sequences begin."""
+PARTED = 0.4
+"""Probability of being several commands from which one of them is not taken for all."""
 AVOIDED = "avoid(1)"
 """The shape of forbidding something."""
 SURE = 0.986
@@ -152,6 +154,18 @@ class ComposedTranslator:
         if not shapes and not WHILE.isdisjoint(spoken):
             return refusal
         return _part(shapes, lambda shape: forbids(shape) and shape != AVOIDED)
+
+    def parts(self, text: str) -> tuple[str, ...]:
+        """The clauses of a text that probably says more than one of them says: of several, or of one to which something
+        is joined that may ask for something too ("turn on the light and wave"); none of a text that is one clause.
+        """
+        spoken = marked_words(text)
+        shapes, _ = self._shapes(spoken)
+        several = [each for each in shapes if len(each.clauses) > 1]
+        if several and sum(each.share for each in several) >= PARTED * sum(each.share for each in shapes):
+            return tuple(" ".join(clause.words) for clause in several[0].clauses)
+        joined = shapes and shapes[0].shape == SINGLE and _joins(shapes[0], spoken)
+        return (" ".join(shapes[0].clauses[0].words),) if joined else ()
 
     def refuses(self, text: str) -> float:
         """The probability that a text asks for nothing, of whatever task."""
