@@ -23,7 +23,7 @@ from service.store.engine import is_postgresql
 
 PLAN_OPTIONS = ("objective", "verify", "no_relevance")
 """Arguments of `plan` that are members of the request's `options`."""
-NOT_MEMBERS = ("command", "server", "environment_file", "format", "gif")
+NOT_MEMBERS = ("command", "server", "environment_file", "format", "gif", "answer")
 """Arguments that are no members of a request."""
 
 
@@ -75,6 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     translate.add_argument("text")
     translate.add_argument("--environment", help="name of a stored environment; without it there is no LTL")
     _translator(translate)
+    _answers(translate)
     translate.add_argument("--candidates", type=int, default=1, help="how many readings to print")
 
     learn = _remote(commands.add_parser("learn", help="learn a task class from a contextual query and its LTL"))
@@ -97,6 +98,7 @@ def _parser() -> argparse.ArgumentParser:
     what.add_argument("--contextual-query")
     what.add_argument("--ltl")
     _translator(plan)
+    _answers(plan)
     where = plan.add_mutually_exclusive_group(required=True)
     where.add_argument("--environment")
     where.add_argument("--environment-file", type=Path, help="an environment as YAML or JSON")
@@ -115,6 +117,12 @@ def _parser() -> argparse.ArgumentParser:
 
 def _translator(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--translator", help="default, cq-copynet, cq-copynet-pos or ltl-copynet")
+
+
+def _answers(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--answer", action="append", default=[], help="to the question that is asked; again for the next"
+    )
 
 
 def _port(text: str) -> int:
@@ -195,6 +203,9 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
         body["environment_spec"] = read_environment(options.environment_file)
     try:
         status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
+        for choice in getattr(options, "answer", []):
+            body["answers"] = [*body.get("answers", []), _answer(choice, answer.get("question"))]
+            status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
     except UnreachableError as error:
         print(error, file=sys.stderr)
         return 1
@@ -202,6 +213,12 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
         return _show(settings, options, body, answer)
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
+
+
+def _answer(choice: str, question: dict[str, Any] | None) -> dict[str, Any]:
+    """A choice as the answer to a question; what is asked about is taken from that."""
+    about = {} if question is None else {name: question[name] for name in ("part", "argument")}
+    return {"choice": choice, **{name: value for name, value in about.items() if value is not None}}
 
 
 def _plan_options(options: argparse.Namespace) -> dict[str, Any]:

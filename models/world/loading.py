@@ -39,6 +39,9 @@ def load_environment(data: Mapping[str, Any]) -> Environment:
     return loaded
 
 
+_QUOTE = 'YAML reads on, off, yes and no as true and false where they are not in quotes ("on")'
+
+
 def _shape(data: object, report: Report) -> OomdpSpec | ExplicitSpec | None:
     if isinstance(data, Mapping) and (kind := data.get("kind")) not in _KINDS:
         wrong = "the kind is missing" if kind is None else "there is no such kind of environment"
@@ -47,9 +50,11 @@ def _shape(data: object, report: Report) -> OomdpSpec | ExplicitSpec | None:
     try:
         return ENVIRONMENT.validate_python(data)
     except ValidationError as error:
-        for fault in error.errors(include_url=False, include_context=False, include_input=False):
+        for fault in error.errors(include_url=False, include_context=False):
+            truth = fault["type"] == "string_type" and isinstance(fault["input"], bool)
+            said = f"{str(fault['input']).lower()} is not text: {_QUOTE}" if truth else _sentence(fault["msg"])
             path = [part for part in fault["loc"] if part != "[key]"]
-            report.add(path[1:] if path[:1] and path[0] in _KINDS else path, _sentence(fault["msg"]))
+            report.add(path[1:] if path[:1] and path[0] in _KINDS else path, said)
         return None
 
 

@@ -64,6 +64,17 @@ def test_the_same_against_a_server(client: httpx.Client, hurried: httpx.Client, 
     assert not (tmp_path / "unused").exists()
 
 
+def test_questions_are_answered_one_after_the_other(client: httpx.Client, tmp_path: Path) -> None:
+    asked = ("plan", "Bring a toy", "--environment", "toys", "--server", str(client.base_url), "--format", "json")
+    refused = run_cli(*asked, data=tmp_path)
+    assert refused.returncode == 1
+    assert json.loads(refused.stderr)["question"]["about"] in ("thing", "reading")
+    picked = ("translate", "Pick up a toy", "--environment", "toys", "--server", str(client.base_url))
+    assert json.loads(run_cli(*picked, "--answer", "bag", data=tmp_path).stdout)["ltl"] == "F holding(bag)"
+    wrong = run_cli(*picked, "--answer", "moon", data=tmp_path)
+    assert (wrong.returncode, "wrong-answer" in wrong.stderr) == (1, True)
+
+
 def test_explaining_with_a_server(client: httpx.Client, tmp_path: Path) -> None:
     arguments = ["explain", "G F a", "--server", str(client.base_url)]
     there = run_cli(*arguments, data=tmp_path / "unused")

@@ -32,6 +32,7 @@ def faults(data):
 SHAPES = [
     ("name", REMOVE, "/name", "field required"),
     ("name", 7, "/name", "valid string"),
+    ("name", True, "/name", "true is not text: YAML reads on, off, yes and no as true and false"),
     ("kind", REMOVE, "/kind", "the kind is missing: give oomdp or explicit"),
     ("kind", "pomdp", "/kind", "there is no such kind of environment: give oomdp or explicit"),
     ("kind", ["oomdp"], "/kind", "give oomdp or explicit"),
