@@ -65,7 +65,7 @@ def test_the_same_against_a_server(client: httpx.Client, hurried: httpx.Client, 
 
 
 def test_questions_are_answered_one_after_the_other(client: httpx.Client, tmp_path: Path) -> None:
-    asked = ("plan", "Bring a toy", "--environment", "toys", "--server", str(client.base_url), "--format", "json")
+    asked = ("plan", "Pick up a toy", "--environment", "toys", "--server", str(client.base_url), "--format", "json")
     refused = run_cli(*asked, data=tmp_path)
     assert refused.returncode == 1
     assert json.loads(refused.stderr)["question"]["about"] in ("thing", "reading")

@@ -99,30 +99,6 @@ def test_an_unknown_word_is_asked_about_in_other_worlds_than_the_task_was_taught
     assert set(question["choices"]) >= {"kitchen", "bathroom"}
 
 
-@pytest.mark.parametrize(
-    ("text", "environment", "choices"),
-    [
-        ("put the towel in the", "house", {"put_in(towel, basket)", "bring(towel, kitchen)", "bring(towel, bathroom)"}),
-        ("Please bring me the red cup", "house", {"bring(red cup, kitchen)", "bring(red cup, bedroom)"}),
-        ("switch on", "house", {"switch_on(oven)", "switch_on(washing_machine)"}),
-        ("Pick up the", "toys", {"pickup(sphere)", "pickup(bag)"}),
-        ("go to the", "house", {"navigate_one(kitchen)", "navigate_one(bathroom)"}),
-    ],
-)
-def test_a_missing_argument_is_asked_for(client: httpx.Client, text: str, environment: str, choices: set[str]) -> None:
-    answer = ask(client, text, environment)
-    question = answer["question"]
-    assert (answer["outcome"], answer["contextual_query"], answer["candidates"]) == ("ambiguous", None, [])
-    assert question["about"] == "reading"
-    assert set(question["choices"]) >= choices
-    assert len(set(question["says"])) == len(question["choices"]) <= 20
-    for choice in choices:
-        settled = ask(client, text, environment, {"choice": choice})
-        assert (settled["outcome"], settled["contextual_query"]["text"]) == ("translated", choice)
-        grounded = client.post("/ground", json={"contextual_query": choice, "environment": environment}).json()
-        assert settled["ltl"] == grounded["ltl"]
-
-
 def test_how_often_is_not_passed_over(client: httpx.Client) -> None:
     text = "Visit the museum twice"
     answer = ask(client, text, "city")
@@ -139,29 +115,6 @@ def test_conditions_are_not_passed_over(client: httpx.Client) -> None:
     question = ask(client, "Go to the zoo if it is open", "city")["question"]
     assert question["text"] == '"if it is open" is not understood; do you mean: eventually the robot is at the zoo?'
     assert ask(client, "Go to the zoo if it is no trouble", "city")["outcome"] == "translated"
-
-
-def test_what_may_be_too_many_things_is_not_asked_for(client: httpx.Client) -> None:
-    answer = ask(client, "go to", "navigation")
-    assert (answer["outcome"], answer["question"]) == ("unknown", None)
-    assert "navigate_one" in answer["nearest"]
-
-
-def test_a_plan_is_not_made_for_a_command_that_leaves_something_out(client: httpx.Client) -> None:
-    body = {"text": "bring the towel", "environment": "house"}
-    problem = check_problem(client.post("/plan", json=body), "ambiguous-command", 422, ["/text"])
-    assert "bring(towel, bathroom)" in problem["choices"]
-    planned = client.post("/plan", json=body | {"answers": [{"choice": "bring(towel, bathroom)"}]}).json()
-    assert (planned["outcome"], planned["ltl"]) == ("solved", "F at(towel, bathroom)")
-    wrong = client.post("/plan", json=body | {"answers": [{"choice": "bring(towel, moon)"}]})
-    check_problem(wrong, "wrong-answer", 422, ["/answers/0/choice"])
-
-
-@pytest.mark.parametrize(
-    "text", ["hello", "bring the unicorn", "wash the towel", "towel", "take a nap", "what is in the", "me"]
-)
-def test_nothing_is_asked_where_no_task_is_begun(client: httpx.Client, text: str) -> None:
-    assert ask(client, text, "house")["outcome"] == "unknown"
 
 
 def test_two_meanings_of_a_taught_wording_are_asked_about(client: httpx.Client) -> None:
