@@ -22,12 +22,12 @@ from models.language.matching.model import MatchModel, load_model
 from models.language.matching.network import ON, OUTSIDE
 from models.language.spans.decoding import best_sequences, log_totals
 from models.language.spans.tags import Span
+from models.language.spans.translator import quantified
 from models.language.teaching.utterance import Utterance, plain
 from models.language.teaching.wording import CONNECTIVES
 from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
-from models.world import widened
 
 SEQUENCES = 6
 """Ways to see what a text mentions that are looked at."""
@@ -182,7 +182,8 @@ class Matcher:
             if sum(end - begin for begin, end in mentions.spans) >= len(said):
                 continue  # nothing but names asks for nothing
             for order, part in task.orders(mentions):
-                phrases = tuple(_phrase(said, mentions.spans[place], mentions.spans) for place in order)
+                spans = (quantified(said, mentions.spans[place], mentions.spans) for place in order)
+                phrases = tuple(" ".join(plain(said[slice(*span)])) for span in spans)
                 query = ContextualQuery(task.task.task, phrases)
                 found[query] = found.get(query, 0.0) + likely * part
         ranked = sorted(found, key=lambda query: (-found[query], str(query)))
@@ -302,13 +303,6 @@ def _distinct(said: Sequence[str], spans: Iterable[Span]) -> tuple[Span, ...]:
     for span in spans:
         first.setdefault(tuple(said[slice(*span)]), span)
     return tuple(first.values())
-
-
-def _phrase(said: tuple[str, ...], span: Span, spans: Sequence[Span]) -> str:
-    """The words of a mention with its quantifier, unless that is a part of another one: "both machines"."""
-    start = widened(said, span[0])
-    begin = span[0] if any(start < end <= span[0] for _, end in spans) else start
-    return " ".join(plain(said[begin : span[1]]))
 
 
 def _free(count: int, spans: Iterable[Span]) -> list[int]:

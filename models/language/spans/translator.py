@@ -99,17 +99,19 @@ def _query(name: str, spoken: Sequence[str], mentions: Sequence[Sequence[Span]])
     if not all(_same(first, other) for first, *others in said for other in others):
         return None
     try:
-        begins = [_begin(spoken, spans[0][0], mentions) for spans in mentions]
+        taken = [span for spans in mentions for span in spans]
+        begins = [quantified(spoken, spans[0], taken)[0] for spans in mentions]
         phrases = [spoken[begin : spans[0][1]] for begin, spans in zip(begins, mentions, strict=True)]
         return ContextualQuery(name, tuple(map(" ".join, phrases)))
     except QuerySyntaxError:  # longer than a query may be: one word can be as long as a text
         return None
 
 
-def _begin(spoken: Sequence[str], begin: int, mentions: Sequence[Sequence[Span]]) -> int:
-    """Where a mention begins with its quantifier, unless that is a part of another mention."""
+def quantified(spoken: Sequence[str], mention: Span, mentions: Sequence[Span]) -> Span:
+    """A mention with its quantifier, unless that is a part of another one: "both machines"."""
+    begin, end = mention
     start = widened(spoken, begin)
-    return begin if any(start < end <= begin for spans in mentions for _, end in spans) else start
+    return (begin if any(start < other <= begin for _, other in mentions) else start), end
 
 
 def _same(one: Sequence[str], other: Sequence[str]) -> bool:
