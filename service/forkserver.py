@@ -6,7 +6,7 @@ import multiprocessing
 from multiprocessing import forkserver
 from multiprocessing.context import ForkServerContext
 
-_PRELOADED = ["service.worker.jobs", "models.planning"]
+_PRELOADED = ["service.worker.preloaded"]
 
 
 def context() -> ForkServerContext:

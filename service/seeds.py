@@ -9,8 +9,7 @@ from dataclasses import replace
 from importlib.resources import files
 from typing import Literal
 
-import yaml
-
+from models.data import read_yaml
 from models.errors import CqltlError
 from models.queries import parse_task
 from models.world import builtin_environments
@@ -101,7 +100,7 @@ def _note(services: Services, *facts: str) -> None:
 
 def seeds(group: Literal["paper", "common"]) -> list[Lesson]:
     """The lessons of a group in `seeds.yaml`."""
-    data = yaml.safe_load((files("service") / "seeds.yaml").read_text(encoding="utf-8"))
+    data = read_yaml((files("service") / "seeds.yaml").read_text(encoding="utf-8"))
     return [
         Lesson(
             seed["contextual_query"],

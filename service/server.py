@@ -39,6 +39,7 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         gc.collect()
         gc.freeze()  # networks and grammars stay: to look through them again and again would hold up requests
+        gc.enable()
         if self.started:
             print(self._said, flush=True)  # noqa: T201 - what `cqltl serve` is for
 

@@ -25,6 +25,7 @@ TASKS = {
         ("in(cylinder, box)", "at(box, bedroom)"),
     ),
     "then": Task("F (in(cylinder, box) & F at(box, bedroom))", ()),
+    "rounds": Task("G F in(cylinder, box) & G F holding(cylinder)", ()),
 }
 
 

@@ -125,12 +125,12 @@ class TensorOperator:
     def _sparse(self, choices: Choices) -> torch.Tensor:
         outcome = spans(choices.first_outcome, self._choice)
         first = offsets(np.diff(choices.first_outcome)[self._choice])
-        with warnings.catch_warnings():
+        unchecked = torch.sparse.check_sparse_tensor_invariants(False)  # type: ignore[no-untyped-call]  # CUDA asks for it
+        with warnings.catch_warnings(), unchecked:
             warnings.filterwarnings("ignore", message=".*Sparse CSR tensor support.*")
             return torch.sparse_csr_tensor(
                 self._tensor(first),  # 32-bit indices: the vendor's kernels take them without a conversion
                 self._tensor(self.position[choices.successor[outcome]]),
                 self._tensor(choices.probability[outcome]),
                 size=(len(self._choice), choices.unknowns),
-                check_invariants=False,
             )

@@ -6,8 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from models.data import read_yaml
 from models.world.domain import Domain
 from models.world.domain_reader import read_domain
 from models.world.report import Report
@@ -25,7 +24,7 @@ def builtin_domains() -> tuple[str, ...]:
 @lru_cache(maxsize=8)
 def builtin_domain(name: str) -> Domain:
     """A built-in domain, checked. Raises WorldError when its file is wrong."""
-    data = yaml.safe_load((_HERE / "domains" / f"{name}.yaml").read_text(encoding="utf-8"))
+    data = read_yaml((_HERE / "domains" / f"{name}.yaml").read_text(encoding="utf-8"))
     report = Report(what=f"the domain {name}")
     domain = read_domain(DOMAIN.validate_python(data), report)
     report.close()
@@ -36,5 +35,5 @@ def builtin_domain(name: str) -> Domain:
 def builtin_environments() -> tuple[tuple[str, dict[str, Any]], ...]:
     """Name and data of each environment that a new service starts with; fresh copies."""
     files = sorted((_HERE / "environments").glob("*.yaml"))
-    loaded = (yaml.safe_load(path.read_text(encoding="utf-8")) for path in files)
+    loaded = (read_yaml(path.read_text(encoding="utf-8")) for path in files)
     return tuple((str(data["name"]), data) for data in loaded)

@@ -7,11 +7,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
 
 from models.logic import Atom
+from models.planning.options import Device
 from models.world import ExplicitWorld, Outcomes, State, Variable
 from models.world import Transitions as Listed
+
+DEVICES: list[Device] = ["cpu", "cuda"] if torch.cuda.is_available() else ["cpu"]
+"""Where sweeps can run on this machine."""
 
 Transitions = Mapping[int, Mapping[str, Mapping[int, float]]]
 """state -> action -> successor -> probability."""

@@ -17,6 +17,7 @@ from models.planning.options import Options
 from models.planning.probability import iterate_intervals
 from models.planning.ragged import offsets
 from models.planning.tensors import TensorOperator
+from tests.planning.doubles import DEVICES
 
 
 def random_choices(seed: int, *, leak: float = 0.05) -> Choices:
@@ -47,7 +48,7 @@ def worth(choices: Choices, x: Vector) -> list[float]:
 
 
 def operators(choices: Choices) -> list[Operator]:
-    return [KernelOperator(choices), TensorOperator(choices, torch.device("cpu"))]
+    return [KernelOperator(choices), *(TensorOperator(choices, torch.device(device)) for device in DEVICES)]
 
 
 def owned(choices: Choices, values: list[float]) -> list[list[float]]:

@@ -10,8 +10,9 @@ import pytest
 
 from models.logic import parse
 from models.planning import Options, Policy, plan, to_bytes
+from models.planning.options import Device
 from tests.planning import brute
-from tests.planning.doubles import ArrayWorld, random_world
+from tests.planning.doubles import DEVICES, ArrayWorld, random_world
 
 
 def random_formula(pick: random.Random, depth: int) -> brute.LTL:
@@ -40,8 +41,9 @@ def solve(world: ArrayWorld, formula: brute.LTL) -> brute.Answer:
     )
 
 
+@pytest.mark.parametrize("device", DEVICES)
 @pytest.mark.parametrize("block", range(10))
-def test_values_equal_the_exact_ones(block: int) -> None:
+def test_values_equal_the_exact_ones(block: int, device: Device) -> None:
     between = 0
     for seed in range(block * 40, block * 40 + 40):
         world = random_world(seed)
@@ -51,7 +53,7 @@ def test_values_equal_the_exact_ones(block: int) -> None:
             random_formula(random.Random(-seed), 1 + seed % 2),
         )
         answer = solve(world, formula)
-        result = plan(world, parse(brute.text(formula)))
+        result = plan(world, parse(brute.text(formula)), options=Options(device=device))
         assert result.lower - 1e-11 <= answer.probability <= result.upper + 1e-11, seed
         assert result.upper - result.lower <= 1e-6, seed
         assert (result.outcome == "solved") == (answer.probability > 0), seed

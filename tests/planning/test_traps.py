@@ -6,7 +6,16 @@ import pytest
 
 from models.logic import parse
 from models.planning import Options, Plan, plan, simulate
-from tests.planning.doubles import ArrayWorld, Transitions
+from models.planning.options import Device
+from tests.planning.doubles import DEVICES, ArrayWorld, Transitions
+
+SETTINGS: dict[str, Device] = {}
+
+
+@pytest.fixture(params=DEVICES, autouse=True)
+def _device(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every trap is planned on each device of this machine."""
+    monkeypatch.setitem(SETTINGS, "device", request.param)
 
 
 def world(transitions: Transitions, *, initial: int = 0, **holds: set[int]) -> ArrayWorld:
@@ -15,7 +24,7 @@ def world(transitions: Transitions, *, initial: int = 0, **holds: set[int]) -> A
 
 
 def solve(model: ArrayWorld, formula: str, **options: float | str) -> Plan:
-    return plan(model, parse(formula), options=Options(**options))  # type: ignore[arg-type]
+    return plan(model, parse(formula), options=Options(**SETTINGS, **options))  # type: ignore[arg-type]
 
 
 def test_a_slow_chain_that_looks_converged() -> None:

@@ -14,12 +14,12 @@ from typing import TypeVar
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from models.data import read_yaml
 from models.errors import Place
 from models.language.errors import VocabularyError
 from models.language.tokens import words
 
 _Shape = TypeVar("_Shape", bound=BaseModel)
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same in C, where PyYAML was built with it
 
 
 class Domain(StrEnum):
@@ -131,7 +131,7 @@ def parse_corpus(text: str) -> Corpus:
 def load_yaml(text: str, shape: type[_Shape]) -> _Shape:
     """YAML text as a value of a pydantic model; raises `VocabularyError` with the places that do not fit."""
     try:
-        return shape.model_validate(yaml.load(text, _LOADER))
+        return shape.model_validate(read_yaml(text))
     except yaml.YAMLError as error:
         raise _wrong("", f"the data file is not YAML: {error}") from None
     except ValidationError as error:

@@ -10,8 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
-import yaml
-
+from models.data import read_yaml
 from models.language.dataset.corpus import Domain, Part, Word, read_corpus
 
 _WORLD = {Domain.MANIPULATION: "toys", Domain.NAVIGATION: "navigation"}
@@ -53,7 +52,7 @@ def environment_of(domain: Domain, vocabulary: Mapping[str, Sequence[Word]], *, 
 def _without_dynamics(name: str) -> dict[str, Any]:
     """A built-in domain whose state attributes are static and that has no actions."""
     text = (files("models.world") / "domains" / f"{name}.yaml").read_text(encoding="utf-8")
-    data: dict[str, Any] = yaml.safe_load(text)
+    data: dict[str, Any] = read_yaml(text)
     for declared in data["classes"].values():
         declared["static"] = {**declared.get("static", {}), **declared.pop("state", {})}
     return {**data, "name": f"{name}_at_rest", "actions": {}, "constraints": []}

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-import yaml
-
+from models.data import read_yaml
 from models.language.tokens import words
 
 DATASETS = ("drone", "cleanup", "pick")
@@ -78,7 +77,7 @@ class Environment:
 @cache
 def environment(dataset: str) -> Environment:
     """What one of `DATASETS` is about."""
-    data = yaml.safe_load((files("models.language.human") / "environments.yaml").read_text(encoding="utf-8"))
+    data = read_yaml((files("models.language.human") / "environments.yaml").read_text(encoding="utf-8"))
     kinds = data[dataset]
     return Environment(
         {
