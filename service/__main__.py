@@ -149,7 +149,12 @@ def _serve(settings: Settings, options: argparse.Namespace) -> int:
     port = settings.port if options.port is None else options.port
     with listen(settings, options.host or settings.host, port) as listener:  # first: what is refused loads nothing
         from service.forkserver import launch
+        from service.keys import KeyRing
+        from service.store.migrate import migrate
 
+        if settings.api_keys_file:
+            KeyRing(settings.api_keys_file)
+        migrate(settings.url)
         launch()  # before this process loads what it needs itself, so that both load at once
         gc.disable()  # until all is loaded (`service.server`): to look through it in between takes a tenth of the time
         from service.server import serve

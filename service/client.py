@@ -86,7 +86,9 @@ def _ended(server: str, job: dict[str, Any], key: str) -> tuple[int, Any]:
 
 async def _ask_here(method: str, path: str, body: dict[str, Any] | None, settings: Settings) -> httpx.Response:
     from service.forkserver import launch
+    from service.store.migrate import migrate
 
+    migrate(settings.url)  # first: what is refused loads nothing
     launch()  # it loads while this process does
     from service.app import create_app
     from service.asgi import running

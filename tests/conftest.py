@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 LONG = ("service", "tests/service/jobs")
 """Beginnings of the scopes that take minutes."""
 
-settings.register_profile("fixed", derandomize=True, deadline=None)  # machines are noisy
+settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)  # machines are noisy
 settings.register_profile("fresh", print_blob=True, deadline=None)
 settings.load_profile("fresh" if os.environ.get("CQLTL_FUZZ") else "fixed")
 

@@ -79,7 +79,7 @@ def applications(count: int) -> list[Atom]:
 
 
 @given(CONDITIONS)
-@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=50, deadline=None, suppress_health_check=list(HealthCheck))
 def test_a_condition_holds_where_the_world_says(condition: str) -> None:
     env = environment(functions([condition]))
     model = GroundedModel(env.world)

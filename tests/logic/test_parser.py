@@ -116,14 +116,14 @@ chains = st.lists(st.tuples(operand, operator), max_size=6).flatmap(
 
 
 @given(chains)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_precedence_is_spots(text: str) -> None:
     assert spot.are_equivalent(spot.formula(text), spot.formula(to_text(parse(text))))
     assert spot.formula(text) == spot.formula(to_text(parse(text)))
 
 
 @given(tokens)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=120, deadline=None)
 def test_infix_accepts_just_what_spot_accepts(pieces: list[str]) -> None:
     text = " ".join(pieces)
     expected = spot.parse_infix_psl(text)
@@ -135,7 +135,7 @@ def test_infix_accepts_just_what_spot_accepts(pieces: list[str]) -> None:
 
 
 @given(tokens)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=120, deadline=None)
 def test_no_text_has_two_meanings(pieces: list[str]) -> None:
     text = " ".join(pieces)
     attempts = [attempt(text, dialect)[0] for dialect in (Dialect.INFIX, Dialect.PREFIX)]
@@ -146,7 +146,7 @@ def test_no_text_has_two_meanings(pieces: list[str]) -> None:
 
 
 @given(st.text(max_size=60) | st.text(alphabet='ab1FGU!&|<->[]()"\\{}$_ \n\t,^~textmathrm', max_size=60))
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_any_text_is_a_formula_or_a_refusal(text: str) -> None:
     for dialect in (None, Dialect.PREFIX):
         formula, refusal = attempt(text, dialect)

@@ -14,7 +14,7 @@ SHIP = "F (in(cylinder, box) & F (in(cylinder, box) & at(box, bedroom)))"
 
 @given(formulas(nasty_atoms), st.sampled_from(Dialect))
 @example(parse(SHIP), Dialect.LATEX)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 def test_what_is_printed_is_read_back_named_or_recognised(formula: Formula, dialect: Dialect) -> None:
     text = to_text(formula, dialect)
     assert parse(text, dialect=dialect) == formula

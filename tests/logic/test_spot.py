@@ -89,7 +89,7 @@ def check_shape(automaton: Automaton) -> None:
 
 
 @given(cosafe_formulas(plain_atoms), st.lists(words, min_size=5, max_size=15))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 def test_the_automaton_accepts_just_the_words_that_satisfy_the_formula(
     formula: Formula, tries: list[tuple[list[Letter], list[Letter]]]
 ) -> None:
@@ -101,7 +101,7 @@ def test_the_automaton_accepts_just_the_words_that_satisfy_the_formula(
 
 
 @given(formulas(plain_atoms, max_leaves=6), st.lists(words, min_size=3, max_size=8))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=80, deadline=None)
 def test_cosafety_is_decided_on_the_language(formula: Formula, tries: list[tuple[list[Letter], list[Letter]]]) -> None:
     judged = spot.mp_class(spot.formula(to_text(formula))) in ("B", "G")
     assert is_cosafe(formula) == judged
@@ -113,7 +113,7 @@ def test_cosafety_is_decided_on_the_language(formula: Formula, tries: list[tuple
 
 
 @given(formulas(plain_atoms, max_leaves=6), st.lists(words, min_size=1, max_size=10))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 def test_every_operator_means_what_the_definitions_say(
     formula: Formula, tries: list[tuple[list[Letter], list[Letter]]]
 ) -> None:
@@ -223,7 +223,7 @@ def test_the_ship_template_orders_nothing() -> None:
 
 
 @given(formulas(plain_atoms, max_leaves=5), formulas(plain_atoms, max_leaves=5))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 def test_equivalent_formulas_agree_on_words_and_others_do_not(left: Formula, right: Formula) -> None:
     chance = random.Random(to_text(left) + to_text(right))
     lassos = [

@@ -6,6 +6,8 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ import httpx
 import pytest
 
 from benchmarks.server import serving
+from service.__main__ import main
 from tests.service.postgres import Postgres
 
 PROBLEM = "urn:cqltl:problem:"
@@ -99,6 +102,20 @@ def run_cli(*arguments: str, data: Path, **environment: str) -> subprocess.Compl
         timeout=120,
         check=False,
     )
+
+
+def run_here(*arguments: str, data: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    """As `run_cli`, in this process: to load what it needs takes seconds. Not for `serve`, which may not end."""
+    out, error = StringIO(), StringIO()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(error):
+        for name, value in {"CQLTL_DATA_DIR": str(data), "CQLTL_DATABASE_URL": "", **environment}.items():
+            patch.setenv(name, value)
+        try:
+            status = main(arguments)
+        except SystemExit as refused:  # as Python ends then: a text is said, and the status is 1
+            status = refused.code if isinstance(refused.code, int) else 1
+            error.write(refused.code if isinstance(refused.code, str) else "")
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 
 def learn(client: httpx.Client, query: str, ltl: str, *examples: str, environment: str = "toys") -> httpx.Response:

@@ -11,7 +11,7 @@ import pytest
 from service.binding import CannotListenError, listen
 from service.keys import KeyRing, KeysError, add_key, read_keys, remove_key
 from service.settings import Settings
-from tests.service.conftest import run_cli
+from tests.service.conftest import run_cli, run_here
 
 
 def test_a_key_is_kept_as_a_digest_that_only_its_owner_reads(tmp_path: Path) -> None:
@@ -92,16 +92,16 @@ def test_names_are_told_apart(tmp_path: Path) -> None:
 
 def test_the_command(tmp_path: Path) -> None:
     path = tmp_path / "keys"
-    added = run_cli("keys", "add", "robot", "--file", str(path), data=tmp_path)
+    added = run_here("keys", "add", "robot", "--file", str(path), data=tmp_path)
     assert added.returncode == 0, added.stderr
     assert KeyRing(path).find(added.stdout.strip()) is not None
-    listed = run_cli("keys", "list", data=tmp_path, CQLTL_API_KEYS_FILE=str(path))
+    listed = run_here("keys", "list", data=tmp_path, CQLTL_API_KEYS_FILE=str(path))
     assert listed.stdout == "robot read,translate,plan\n"
-    assert run_cli("keys", "add", "robot", "--file", str(path), data=tmp_path).returncode == 1
-    assert run_cli("keys", "add", "x", "--scopes", "fly", "--file", str(path), data=tmp_path).returncode == 2
-    assert run_cli("keys", "list", data=tmp_path).returncode == 2
-    assert run_cli("keys", "remove", "robot", "--file", str(path), data=tmp_path).returncode == 0
-    assert run_cli("keys", "list", "--file", str(path), data=tmp_path).stdout == ""
+    assert run_here("keys", "add", "robot", "--file", str(path), data=tmp_path).returncode == 1
+    assert run_here("keys", "add", "x", "--scopes", "fly", "--file", str(path), data=tmp_path).returncode == 2
+    assert run_here("keys", "list", data=tmp_path).returncode == 2
+    assert run_here("keys", "remove", "robot", "--file", str(path), data=tmp_path).returncode == 0
+    assert run_here("keys", "list", "--file", str(path), data=tmp_path).stdout == ""
 
 
 def test_beyond_loopback_there_are_keys_or_the_word_for_it(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ import yaml
 from benchmarks.server import serving
 from models.world import toys_spec
 from service.__main__ import main
-from tests.service.conftest import run_cli
+from tests.service.conftest import run_cli, run_here
 
 SHIP = "Put the cylinder in the box, then put the box in the bedroom"
 
@@ -22,16 +22,16 @@ SHIP = "Put the cylinder in the box, then put the box in the bedroom"
 def test_the_whole_path_without_a_server(tmp_path: Path) -> None:
     """`translate` is in the next test. However short the wait, no plan becomes a job."""
     lesson = ["stash(sphere)", "F in(sphere, box)", "--environment", "toys", "--explanation", "the {1} is stashed"]
-    learned = run_cli("learn", *lesson, data=tmp_path)
+    learned = run_here("learn", *lesson, data=tmp_path)
     assert learned.returncode == 0, learned.stderr
     assert json.loads(learned.stdout)["template"] == "F in($1, box)"
     query = ["--contextual-query", "stash(cylinder)", "--environment", "toys"]
-    said = json.loads(run_cli("explain", *query, data=tmp_path).stdout)
+    said = json.loads(run_here("explain", *query, data=tmp_path).stdout)
     assert (said["explanation"], said["reading"]) == (
         "the cylinder is stashed",
         "eventually the cylinder is in the box",
     )
-    planned = run_cli("plan", *query, data=tmp_path, CQLTL_WAIT_S="0")
+    planned = run_here("plan", *query, data=tmp_path, CQLTL_WAIT_S="0")
     assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr
 
 
@@ -46,10 +46,10 @@ def test_the_same_against_a_server(client: httpx.Client, hurried: httpx.Client, 
     server = ["--server", str(client.base_url)]
     question = ("translate", SHIP, "--environment", "toys")
     here = run_cli(*question, data=tmp_path / "local")
-    there = run_cli(*question, "--server", str(hurried.base_url), data=tmp_path / "unused")
+    there = run_here(*question, "--server", str(hurried.base_url), data=tmp_path / "unused")
     assert json.loads(here.stdout)["contextual_query"]["text"] == "ship(cylinder, box, bedroom)"
     assert here.stdout == there.stdout
-    learned = run_cli(
+    learned = run_here(
         "learn",
         "cli(sphere)",
         "F holding(sphere)",
@@ -66,18 +66,18 @@ def test_the_same_against_a_server(client: httpx.Client, hurried: httpx.Client, 
 
 def test_questions_are_answered_one_after_the_other(client: httpx.Client, tmp_path: Path) -> None:
     asked = ("plan", "Pick up a toy", "--environment", "toys", "--server", str(client.base_url), "--format", "json")
-    refused = run_cli(*asked, data=tmp_path)
+    refused = run_here(*asked, data=tmp_path)
     assert refused.returncode == 1
     assert json.loads(refused.stderr)["question"]["about"] in ("thing", "reading")
     picked = ("translate", "Pick up a toy", "--environment", "toys", "--server", str(client.base_url))
-    assert json.loads(run_cli(*picked, "--answer", "bag", data=tmp_path).stdout)["ltl"] == "F holding(bag)"
-    wrong = run_cli(*picked, "--answer", "moon", data=tmp_path)
+    assert json.loads(run_here(*picked, "--answer", "bag", data=tmp_path).stdout)["ltl"] == "F holding(bag)"
+    wrong = run_here(*picked, "--answer", "moon", data=tmp_path)
     assert (wrong.returncode, "wrong-answer" in wrong.stderr) == (1, True)
 
 
 def test_explaining_with_a_server(client: httpx.Client, tmp_path: Path) -> None:
     arguments = ["explain", "G F a", "--server", str(client.base_url)]
-    there = run_cli(*arguments, data=tmp_path / "unused")
+    there = run_here(*arguments, data=tmp_path / "unused")
     assert json.loads(there.stdout)["explanation"] == "again and again a holds"
     assert not (tmp_path / "unused").exists()
 
@@ -85,7 +85,7 @@ def test_explaining_with_a_server(client: httpx.Client, tmp_path: Path) -> None:
 def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> None:
     file = tmp_path / "world.yaml"
     file.write_text(yaml.safe_dump({**toys_spec(columns=2, rows=1, toys=[("cube", "red")]), "name": "filed"}))
-    planned = run_cli(
+    planned = run_here(
         "plan",
         "--ltl",
         "F holding(cube)",
@@ -101,7 +101,7 @@ def test_an_environment_from_a_file(client: httpx.Client, tmp_path: Path) -> Non
 def test_options_of_a_plan_are_those_of_the_request(client: httpx.Client, tmp_path: Path) -> None:
     def planned(*options: str) -> dict[str, Any]:
         what = ["plan", "--ltl", "F at(robot, bathroom)", "--environment", "toys-4x1-sphere"]
-        found = run_cli(*what, "--server", str(client.base_url), *options, data=tmp_path)
+        found = run_here(*what, "--server", str(client.base_url), *options, data=tmp_path)
         answer: dict[str, Any] = json.loads(found.stdout)
         return answer
 
@@ -133,7 +133,7 @@ def test_refusals_go_to_standard_error(
     client: httpx.Client, tmp_path: Path, arguments: list[str], status: int, said: str
 ) -> None:
     server = ["--server", str(client.base_url)] if status == 1 else []
-    result = run_cli(*arguments, *server, data=tmp_path)
+    result = run_here(*arguments, *server, data=tmp_path)
     assert result.returncode == status
     assert said in result.stderr
     assert result.stdout == ""
@@ -141,8 +141,8 @@ def test_refusals_go_to_standard_error(
 
 
 def test_the_document_is_the_servers(client: httpx.Client, tmp_path: Path) -> None:
-    there = run_cli("openapi", "--server", str(client.base_url), data=tmp_path)
-    here = run_cli("openapi", data=tmp_path)
+    there = run_here("openapi", "--server", str(client.base_url), data=tmp_path)
+    here = run_here("openapi", data=tmp_path)
     assert yaml.safe_load(there.stdout) == yaml.safe_load(here.stdout) == client.get("/openapi.json").json()
     stale = tmp_path / "stale.yaml"
     stale.write_text("openapi: 3.1.0\n")
@@ -152,7 +152,7 @@ def test_the_document_is_the_servers(client: httpx.Client, tmp_path: Path) -> No
 
 
 def test_a_server_that_is_not_there(tmp_path: Path) -> None:
-    result = run_cli("translate", "go", "--server", "http://127.0.0.1:9", data=tmp_path)
+    result = run_here("translate", "go", "--server", "http://127.0.0.1:9", data=tmp_path)
     assert result.returncode == 1
     assert "http://127.0.0.1:9/translate" in result.stderr
 
@@ -165,21 +165,21 @@ def test_a_port_that_is_taken(client: httpx.Client, tmp_path: Path) -> None:
 
 
 def test_a_worker_needs_postgresql(tmp_path: Path) -> None:
-    result = run_cli("worker", data=tmp_path)
+    result = run_here("worker", data=tmp_path)
     assert result.returncode == 2
     assert "CQLTL_DATABASE_URL" in result.stderr
     assert not list(tmp_path.iterdir())
 
 
 def test_a_worker_takes_only_queues_that_there_are(tmp_path: Path) -> None:
-    result = run_cli("worker", "--queues", "plan,cpu", data=tmp_path)
+    result = run_here("worker", "--queues", "plan,cpu", data=tmp_path)
     assert result.returncode == 2
     assert "plan and gpu" in result.stderr
 
 
 def test_a_plan_that_becomes_a_job_is_waited_for(hurried: httpx.Client, tmp_path: Path) -> None:
     server = ["--server", str(hurried.base_url)]
-    planned = run_cli("plan", "Pickup the sphere", "--environment", "toys-4x1-sphere", *server, data=tmp_path)
+    planned = run_here("plan", "Pickup the sphere", "--environment", "toys-4x1-sphere", *server, data=tmp_path)
     assert json.loads(planned.stdout)["outcome"] == "solved", planned.stderr
     (job,) = hurried.get("/jobs").json()["items"]
     assert job["state"] == "succeeded"

@@ -273,6 +273,6 @@ values = st.recursive(
 
 
 @given(values, st.booleans())
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_ranges_hold_where_the_value_does(value: Value, holds: bool) -> None:
     agrees(value, holds=holds)

@@ -443,7 +443,7 @@ def _paths(data, path=()):
 PLACES = [(index, path) for index, data in enumerate((SWITCHES, TINY)) for path in _paths(data) if path]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.sampled_from(PLACES), JSON)
 def test_anything_anywhere_is_loaded_or_refused(place, value):
     index, path = place

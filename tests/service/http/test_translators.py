@@ -9,7 +9,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.service.conftest import check_problem, learn, run_cli
+from tests.service.conftest import check_problem, learn, run_here
 
 SHIP = "Put the cylinder in the box, then put the box in the bedroom"
 SHIP_LTL = "F (in(cylinder, box) & F (in(cylinder, box) & at(box, bedroom)))"
@@ -100,9 +100,9 @@ def test_no_other_translator_is_known(client: httpx.Client, translator: str) -> 
 
 def test_the_command_line_chooses_too(client: httpx.Client, tmp_path: Path) -> None:
     options = ["--environment", "toys", "--translator", "ltl-copynet", "--server", str(client.base_url)]
-    translated = run_cli("translate", SHIP, *options, data=tmp_path)
+    translated = run_here("translate", SHIP, *options, data=tmp_path)
     assert json.loads(translated.stdout) == translate(client, "ltl-copynet", SHIP, environment="toys", candidates=1)
-    planned = run_cli("plan", SHIP, *options, data=tmp_path)
+    planned = run_here("plan", SHIP, *options, data=tmp_path)
     assert json.loads(planned.stdout)["ltl"] == SHIP_LTL
-    wrong = run_cli("translate", SHIP, "--translator", "best", "--server", str(client.base_url), data=tmp_path)
+    wrong = run_here("translate", SHIP, "--translator", "best", "--server", str(client.base_url), data=tmp_path)
     assert (wrong.returncode, "validation" in wrong.stderr) == (1, True)
