@@ -27,7 +27,7 @@ class Settings(BaseSettings):
     max_body_bytes: int = Field(1_048_576, ge=1, description="Largest request body, in bytes.")
     max_json_depth: int = Field(64, ge=8, le=500, description="Deepest nesting of arrays and objects in a body.")
     max_head_bytes: int = Field(16_384, ge=1_024, description="Longest request line with its headers, in bytes.")
-    max_connections: int = Field(1_000, ge=1, description="Connections at a time before 503.")
+    max_connections: int = Field(1_000, ge=1, description="Connections at a time before 503, but for /livez.")
     max_in_flight: int = Field(500, ge=1, description="Requests being answered at a time before 503.")
     head_timeout_s: float = Field(5.0, gt=0, description="Longest time for a request's head to arrive, in seconds.")
     body_timeout_s: float = Field(8.0, gt=0, description="Longest time for a request's body to arrive, in seconds.")

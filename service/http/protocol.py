@@ -25,6 +25,12 @@ from service.settings import Settings
 LINGER_S = 1.0
 """How long a connection that was refused is still read, since a reset would take the answer from the client."""
 
+MAX_PROBES = 16
+"""Connections beyond the most, only to ask whether the service lives: it does, and nobody shall restart it."""
+
+PROBE_S = 1.0
+"""How long such a connection may take to ask."""
+
 Phase = Literal["head", "body"]
 
 
@@ -54,13 +60,15 @@ class PatientProtocol(H11Protocol):
         self._phase: Phase | None = None
         self._deadline: asyncio.TimerHandle | None = None
         self._unread: asyncio.TimerHandle | None = None
-        self._refused = False
+        self._refused = self._probe = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as uvicorn's
         """Wait for a head from now on."""
         super().connection_made(transport)
-        if len(self.connections) > self.patience.connections:
-            self._refuse(problem_response("overloaded", "too many connections are open"))
+        beyond = len(self.connections) - self.patience.connections
+        self._probe = beyond > 0
+        if beyond > MAX_PROBES:
+            self._refuse_one_more()
         else:
             self._enter("head")
 
@@ -73,6 +81,9 @@ class PatientProtocol(H11Protocol):
     def data_received(self, data: bytes) -> None:
         """Go on reading, by the deadline of what is being read."""
         if self._refused:
+            return
+        if self._probe and not _asks_for_life(data):
+            self._refuse_one_more()
             return
         super().data_received(data)
         if not self._refused:
@@ -126,6 +137,7 @@ class PatientProtocol(H11Protocol):
         self._phase = phase
         if phase is not None:
             seconds = self.patience.head_s if phase == "head" else self.patience.body_s
+            seconds = min(seconds, PROBE_S) if self._probe else seconds
             self._deadline = self.loop.call_later(seconds, self._too_late)
 
     def _too_late(self) -> None:
@@ -136,6 +148,9 @@ class PatientProtocol(H11Protocol):
             self.transport.close()  # it has not asked for anything
         else:
             self._refuse(problem_response("request-timeout", f"the {waited_for} of the request did not arrive in time"))
+
+    def _refuse_one_more(self) -> None:
+        self._refuse(problem_response("overloaded", "too many connections are open"))
 
     def _refuse(self, response: Response) -> None:
         """Answer past the app, and end the connection."""
@@ -166,6 +181,11 @@ def protocol_of(settings: Settings) -> type[PatientProtocol]:
         connections=settings.max_connections,
     )
     return type("ServedProtocol", (PatientProtocol,), {"patience": patience})
+
+
+def _asks_for_life(data: bytes) -> bool:
+    """Whether this is one whole request for /livez, and nothing else."""
+    return data.startswith(b"GET /livez ") and data.find(b"\r\n\r\n") == len(data) - 4
 
 
 def _raw(response: Response) -> bytes:

@@ -8,13 +8,13 @@ import statistics
 import threading
 import time
 from collections.abc import Iterator
-from pathlib import Path
 
 import httpx
 import pytest
 
 from benchmarks.server import serving
 from benchmarks.slow_clients import HEAD, KINDS, attack, timed
+from service.http.protocol import MAX_PROBES
 
 HEAD_S, BODY_S, KEPT_S = 1.0, 2.0, 1
 
@@ -162,16 +162,26 @@ def test_what_is_not_http(server: httpx.Client, sent: bytes, status: int) -> Non
         assert problem(received(raw)) == (status, "http-error")
 
 
-def test_too_many_connections_are_told_so(server: httpx.Client, tmp_path: Path) -> None:
+def test_beyond_the_most_connections_only_livez_is_answered(server: httpx.Client) -> None:
+    live, ready = (b"GET /%b HTTP/1.1\r\nHost: x\r\n\r\n" % path for path in (b"livez", b"readyz"))
     held = [connected(server) for _ in range(60)]
     try:
         with connected(server) as raw:
-            raw.sendall(b"GET /livez HTTP/1.1\r\nHost: x\r\n\r\n")
-            answer = received(raw)
-            assert problem(answer) == (503, "overloaded")
-            assert b"retry-after:" in answer.lower()
+            raw.sendall(live)
+            assert b"200 OK" in raw.recv(65_536)
+            raw.sendall(live)  # again
+            assert b"200 OK" in raw.recv(65_536)
+        for asked in (ready, live + ready, b"GET /livez"):
+            with connected(server) as raw:
+                raw.sendall(asked)
+                answer = received(raw)
+                assert problem(answer) == (503, "overloaded")
+                assert b"retry-after:" in answer.lower()
+        held += [connected(server) for _ in range(MAX_PROBES)]
+        with connected(server) as raw:
+            assert problem(received(raw)) == (503, "overloaded")
     finally:
         for other in held:
             other.close()
     time.sleep(0.2)
-    assert server.get("/livez").status_code == 200
+    assert server.get("/readyz").status_code == 200
