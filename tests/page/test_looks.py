@@ -40,9 +40,13 @@ def test_screenshots(visit: Open, width: int, scheme: str) -> None:
         assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+@pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_no_serious_violation(visit: Open, axe: str, scheme: str) -> None:
-    page = visit(scheme=scheme)
+def test_axe_finds_no_serious_violation(visit: Open, axe: str, scheme: str, width: int) -> None:
+    page = visit(width=width, scheme=scheme)
+    assert serious(page, axe) == []
+    command(page, "Bring the towel")
+    page.wait_for_selector("#question:not([hidden])")
     assert serious(page, axe) == []
     faster(page)
     command(page, SHIP)

@@ -52,9 +52,10 @@ def test_a_command_is_understood_planned_and_done(visit: Open) -> None:
 def test_every_step_shows_a_curl_command_that_does_the_same(visit: Open, site: httpx.Client) -> None:
     page = visit()
     command(page, SHIP)
-    page.wait_for_selector("#play:not([disabled])")
+    page.check("#values")
+    page.wait_for_selector("#policy-curl pre", state="attached")
     blocks = [block.text_content() for block in page.locator("main .curl pre").all()]
-    assert len(blocks) >= 8  # five steps, the plan, the automaton, the run
+    assert len(blocks) >= 9  # five steps, the plan, the automaton, the run, the values
     for block in blocks:
         body = re.search(r"--json '(.*)'", block)
         path = re.search(r"'http://[^/]+(/.*)'$", block)[1]  # type: ignore[index]  # it is there
@@ -103,10 +104,23 @@ def test_a_long_plan_shows_its_progress_and_is_cancelled(visit: Open, site: http
     page.wait_for_function("document.getElementById('progress-text').textContent !== ''")
     page.locator("#progress").scroll_into_view_if_needed()
     page.screenshot(path=SCREENSHOTS / "progress.png")
+    follow, cancel = (block.text_content() for block in page.locator("#progress .curl pre").all())
     page.get_by_role("button", name="Cancel").click()
     said(page, "Planning was cancelled.")
     assert page.locator("#progress").is_hidden()
-    assert site.get("/jobs").json()["items"][0]["state"] == "cancelled"
+    job = site.get("/jobs").json()["items"][0]
+    assert job["state"] == "cancelled"
+    assert follow.endswith(f"{job['url']}/events'")
+    assert re.search(rf"--request POST \\\n  '.*{job['url']}/cancel'", cancel)
+
+
+def test_a_long_plan_is_cancelled_by_its_curl_command(visit: Open, site: httpx.Client) -> None:
+    page = visit()
+    command(page, "Pick up the cup and pick up the towel and pick up the basket again and again")
+    page.wait_for_selector("#progress:not([hidden])")
+    cancel = page.locator("#progress .curl pre").nth(1).text_content()
+    assert site.post(re.search(r"'http://[^/]+(/.*)'$", cancel)[1]).status_code == 200  # type: ignore[index]  # it is there
+    said(page, "Planning was cancelled.")
 
 
 def test_the_robot_is_dragged_in_the_middle_of_a_run_and_carries_on(visit: Open) -> None:
@@ -118,6 +132,29 @@ def test_the_robot_is_dragged_in_the_middle_of_a_run_and_carries_on(visit: Open)
     said(page, "Robot was moved to living room (column 5, row 1). The policy carries on.")
     faster(page)
     said(page, "Done: the task holds")
+
+
+def test_an_object_is_dragged_in_the_middle_of_a_run_and_fetched_from_there(visit: Open) -> None:
+    page = visit()
+    command(page, SHIP)
+    said(page, "1. ")
+    page.click("#play")
+    drag(page, "towel", "spot_5_1")
+    said(page, "Towel was moved to living room (column 5, row 1).")
+    faster(page)
+    said(page, "Done: the task holds")
+
+
+def test_the_theme_is_chosen(visit: Open) -> None:
+    page = visit(scheme="light")
+    paper = "getComputedStyle(document.body).backgroundColor"
+    light = page.evaluate(paper)
+    page.get_by_role("button", name="Theme").click()
+    assert page.evaluate(paper) == light
+    page.get_by_role("button", name="Theme: light").click()
+    assert page.evaluate(paper) != light
+    page.get_by_role("button", name="Theme: dark").click()
+    assert page.evaluate(paper) == light, "the visitor's own"
 
 
 def test_an_object_is_moved_by_keyboard_in_the_middle_of_a_run(visit: Open) -> None:

@@ -77,6 +77,7 @@ function forget() {
   show(byId("question"), false);
   show(byId("outcome"), false);
   tell("plan-problem");
+  byId("policy-curl").replaceChildren();
   hideUnderstanding();
   hidePromise();
   hideAutomaton();
@@ -287,11 +288,15 @@ byId("slip").addEventListener("change", () => asked && current && say(asked.text
 
 async function overlay() {
   const wanted = { values: byId("values").checked, arrows: byId("arrows").checked };
-  if (!current?.policy || !player.now || !(wanted.values || wanted.arrows)) return world.overlay([]);
+  if (!current?.policy || !player.now || !(wanted.values || wanted.arrows)) {
+    byId("policy-curl").replaceChildren();
+    return world.overlay([]);
+  }
   if (policy === null) {
     policy = await Policy.of(current);
     if (policy === null) return tell("plan-problem", "This policy is too large to be fetched whole; values and arrows are not shown.");
   }
+  tellCurl(byId("policy-curl"), "GET", current.policy.url);
   world.overlay(policy.over(world, player.now.memory, wanted));
 }
 for (const id of ["values", "arrows"]) byId(id).addEventListener("change", guarded(overlay));

@@ -1,6 +1,6 @@
 // Asking for a plan: at once where it is quick, else as a job with its progress and a way to cancel it.
 
-import { Problem, events, request } from "./api.js";
+import { Problem, curlBlock, events, request } from "./api.js";
 import { byId, make, show } from "./dom.js";
 
 const WAIT = { Prefer: "wait=1" };
@@ -21,6 +21,7 @@ async function ended(job, signal) {
   bar.removeAttribute("value");
   byId("progress-text").textContent = "";
   byId("cancel").disabled = false;
+  byId("progress-curl").replaceChildren(curlBlock("GET", `${job.url}/events`), curlBlock("POST", `${job.url}/cancel`));
   const stop = () => {
     byId("cancel").disabled = true;
     request("POST", `${job.url}/cancel`).catch(() => {});
