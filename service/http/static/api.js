@@ -85,8 +85,8 @@ export function curl(method, path, body, headers = {}) {
   return parts.join(" \\\n  ");
 }
 
-/** A disclosure with the curl command of a request, to be copied. */
-export function curlBlock(method, path, body, headers) {
+/** A disclosure with the curl command of a request, to be copied. `aim` tells it from another one beside it. */
+export function curlBlock({ aim }, method, path, body, headers) {
   const text = curl(method, path, body, headers);
   const copy = make("button", { type: "button", class: "copy" }, "Copy");
   copy.addEventListener("click", async () => {
@@ -95,10 +95,10 @@ export function curlBlock(method, path, body, headers) {
     setTimeout(() => (copy.textContent = "Copy"), 1500);
   });
   const code = make("pre", { tabindex: "0", "aria-label": `curl command for ${method} ${path}` }, make("code", {}, text));
-  return make("details", { class: "curl" }, make("summary", {}, "curl", make("span", { class: "unseen" }, ` for ${path}`)), code, copy);
+  return make("details", { class: "curl" }, make("summary", {}, aim ? `curl for ${aim}` : "curl", make("span", { class: "unseen" }, ` for ${path}`)), code, copy);
 }
 
-/** Put the curl command of a request into its place. */
+/** Put the curl command of a request into its place, whose `data-aim` says what it is for. */
 export function tellCurl(place, ...sent) {
-  place.replaceChildren(curlBlock(...sent));
+  place.replaceChildren(curlBlock(place.dataset, ...sent));
 }

@@ -21,7 +21,7 @@ async function ended(job, signal) {
   bar.removeAttribute("value");
   byId("progress-text").textContent = "";
   byId("cancel").disabled = false;
-  byId("progress-curl").replaceChildren(curlBlock("GET", `${job.url}/events`), curlBlock("POST", `${job.url}/cancel`));
+  byId("progress-curl").replaceChildren(curlBlock({ aim: "following it" }, "GET", `${job.url}/events`), curlBlock({ aim: "cancelling it" }, "POST", `${job.url}/cancel`));
   const stop = () => {
     byId("cancel").disabled = true;
     request("POST", `${job.url}/cancel`).catch(() => {});

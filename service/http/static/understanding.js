@@ -39,7 +39,7 @@ export function hideUnderstanding() {
 }
 
 function row(label, content, extra, sent) {
-  return make("li", {}, make("h3", {}, label), make("div", { class: "content" }, content, extra ?? null), sent ? curlBlock(...sent) : null);
+  return make("li", {}, make("h3", {}, label), make("div", { class: "content" }, content, extra ?? null), sent ? curlBlock({}, ...sent) : null);
 }
 
 const code = (text) => make("code", { class: "formula" }, text);
