@@ -8,6 +8,8 @@ import os
 from pathlib import Path
 from typing import Any
 
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before torch is loaded: threads that wait for each other slow both down
+
 import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling

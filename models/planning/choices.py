@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,12 @@ class Choices:
     successor: NDArray[np.int32]  # [e]
     probability: Vector  # [e]
     settled: int = 0  # most outcomes of a choice that went into its constant
+    roundoff: float = field(init=False)
+    """The relative error that one evaluation of a choice may make in floating point."""
+
+    def __post_init__(self) -> None:
+        longest = int(np.diff(self.first_outcome).max(initial=0))
+        object.__setattr__(self, "roundoff", (longest + self.settled + 8) * 2.0**-53)
 
     @property
     def unknowns(self) -> int:
@@ -39,12 +45,6 @@ class Choices:
         """What the kernels read, in their order."""
         first, start = unsigned(self.first_choice), unsigned(self.first_outcome)
         return first, self.constant, start, unsigned(self.successor), self.probability
-
-    @property
-    def roundoff(self) -> float:
-        """The relative error that one evaluation of a choice may make in floating point."""
-        longest = int(np.diff(self.first_outcome).max(initial=0))
-        return (longest + self.settled + 8) * 2.0**-53
 
     def only(self, chosen: NDArray[np.int32]) -> Choices:
         """The chain of a policy: `chosen` [n] is one choice of each unknown."""

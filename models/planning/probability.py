@@ -142,14 +142,16 @@ def iterate_intervals(
             break
     else:
         cut = True
-    proved = _prove(operator, lower, options.epsilon, partial(tell, sweeps))
+    proved, most = _prove(operator, lower, options.epsilon, partial(tell, sweeps)), options.max_sweeps
     if proved is None and not cut and choices.unknowns <= DIRECT_LIMIT:
-        lower, upper = _solve_directly(operator, lower, upper, partial(tell, sweeps))
+        solved = _solve_directly(operator, lower, upper, partial(tell, sweeps))
+        if solved is not None:
+            lower, upper, most = *solved, sweeps + DIRECT_AFTER  # where iteration creeps, no closer in a million sweeps
     if proved is not None:
         upper = operator.vector(np.minimum(operator.numpy(proved), operator.numpy(upper)))
         tell(sweeps + 1, 0.0)
         return operator.numpy(lower), operator.numpy(upper), True
-    return *_close(operator, lower, upper, sweeps, options, tell), False
+    return *_close(operator, lower, upper, sweeps, most, options, tell), False
 
 
 def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[float], None]) -> Any | None:
@@ -170,26 +172,34 @@ def _prove(operator: Operator, lower: Any, epsilon: float, alive: Callable[[floa
 
 
 def _close(
-    operator: Operator, lower: Any, upper: Any, done: int, options: Options, tell: Callable[[int, float], None]
+    operator: Operator,
+    lower: Any,
+    upper: Any,
+    done: int,
+    most: int,
+    options: Options,
+    tell: Callable[[int, float], None],
 ) -> tuple[Vector, Vector]:
-    """Both bounds by interval iteration, until they are `options.epsilon` apart or no sweep brings them closer."""
+    """Both bounds by interval iteration, until they are `PRECISION` apart, no sweep brings them closer, or after `most`
+    sweeps, of which so many are `done`; but then at least until they are `options.epsilon` apart.
+    """
     gap, aim = 1.0, min(PRECISION, options.epsilon)
-    trend = Trend(aim, most=options.max_sweeps - done)
+    trend = Trend(aim, most=most - done)
     for sweep in options.sweeps("probability", after=done):
         previous, gap = gap, operator.narrow(lower, upper, sweep)
         tell(sweep, trend.left(gap))
-        if gap <= aim:
+        if gap <= aim or (sweep >= most and gap <= options.epsilon):
             break
         if gap == previous and sweep % DIRECT_AFTER == 0:  # as close as floating point gets
             break
     return operator.numpy(lower), operator.numpy(upper)
 
 
-def _solve_directly(operator: Operator, lower: Any, upper: Any, alive: Callable[[], None]) -> tuple[Any, Any]:
-    """Both bounds tightened by the direct solver's, where it has any."""
+def _solve_directly(operator: Operator, lower: Any, upper: Any, alive: Callable[[], None]) -> tuple[Any, Any] | None:
+    """Both bounds tightened by the direct solver's; None where it has none."""
     policy, _, _ = operator.greedy(lower, maximise=True, tie=0.0)
     bounds = probability_bounds(operator.choices, policy, alive)
     if bounds is None:
-        return lower, upper
+        return None
     low, high = np.maximum(operator.numpy(lower), bounds[0]), np.minimum(operator.numpy(upper), bounds[1])
     return operator.vector(low), operator.vector(high)

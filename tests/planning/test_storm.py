@@ -23,7 +23,7 @@ from models.planning import Options, Plan, check, plan
 from tests.planning.doubles import ArrayWorld
 
 stormpy = pytest.importorskip("stormpy")
-STORM_S = 60.0
+STORM_S = 20.0
 """Longest that Storm is waited for, in seconds."""
 MODELS = int(os.environ.get("CQLTL_STORM_MODELS", "200"))
 FRESH = random.SystemRandom().randrange(10**9)

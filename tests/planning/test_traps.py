@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from models.logic import parse
@@ -35,6 +37,15 @@ def test_a_slow_chain_that_looks_converged() -> None:
     assert result.upper - result.lower <= 1e-6
     assert result.lower <= 0.25 <= result.upper
     assert result.expected_steps == pytest.approx(250_000, rel=1e-8)
+
+
+def test_a_slow_chain_takes_no_time() -> None:
+    model = world({0: {"go": {0: 1 - 4e-9, 1: 1e-9, 2: 3e-9}}}, a={1})
+    began = time.process_time()
+    result = solve(model, "F a")
+    assert time.process_time() - began < 2.0  # a million sweeps more would be ten times that
+    assert result.lower <= 0.25 <= result.upper
+    assert result.upper - result.lower <= 1e-6
 
 
 def test_a_long_fair_random_walk() -> None:
