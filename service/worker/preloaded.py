@@ -3,8 +3,10 @@ of them is ready when it starts.
 """
 
 import gc
+import signal
 from contextlib import suppress
 
+signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service, which ends this process
 gc.disable()  # to look through what is loaded takes a tenth of the time
 from service.worker.jobs import warm_logic, warm_planning  # noqa: E402
 

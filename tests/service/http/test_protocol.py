@@ -8,6 +8,7 @@ import statistics
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 
 import httpx
 import pytest
@@ -17,6 +18,8 @@ from benchmarks.slow_clients import HEAD, KINDS, attack, timed
 from service.http.protocol import MAX_PROBES
 
 HEAD_S, BODY_S, KEPT_S = 1.0, 2.0, 1
+MOST = 60
+LIVE, READY = (b"GET /%b HTTP/1.1\r\nHost: x\r\n\r\n" % path for path in (b"livez", b"readyz"))
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +29,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
         "CQLTL_BODY_TIMEOUT_S": str(BODY_S),
         "CQLTL_KEEP_ALIVE_S": str(KEPT_S),
         "CQLTL_WRITE_TIMEOUT_S": "2",
-        "CQLTL_MAX_CONNECTIONS": "60",
+        "CQLTL_MAX_CONNECTIONS": str(MOST),
     }
     with serving(tmp_path_factory.mktemp("data"), **settings) as found:
         yield found
@@ -162,26 +165,40 @@ def test_what_is_not_http(server: httpx.Client, sent: bytes, status: int) -> Non
         assert problem(received(raw)) == (status, "http-error")
 
 
-def test_beyond_the_most_connections_only_livez_is_answered(server: httpx.Client) -> None:
-    live, ready = (b"GET /%b HTTP/1.1\r\nHost: x\r\n\r\n" % path for path in (b"livez", b"readyz"))
-    held = [connected(server) for _ in range(60)]
-    try:
-        with connected(server) as raw:
-            raw.sendall(live)
-            assert b"200 OK" in raw.recv(65_536)
-            raw.sendall(live)  # again
-            assert b"200 OK" in raw.recv(65_536)
-        for asked in (ready, live + ready, b"GET /livez"):
-            with connected(server) as raw:
-                raw.sendall(asked)
-                answer = received(raw)
-                assert problem(answer) == (503, "overloaded")
-                assert b"retry-after:" in answer.lower()
-        held += [connected(server) for _ in range(MAX_PROBES)]
-        with connected(server) as raw:
-            assert problem(received(raw)) == (503, "overloaded")
-    finally:
-        for other in held:
-            other.close()
+@contextmanager
+def crowd(server: httpx.Client, size: int) -> Iterator[socket.socket]:
+    """One more connection than there are others, which are held for HEAD_S."""
+    with ExitStack() as held:
+        for _ in range(size):
+            held.enter_context(connected(server))
+        yield held.enter_context(connected(server))
+
+
+def test_beyond_the_most_connections_livez_is_answered(server: httpx.Client) -> None:
+    with crowd(server, MOST) as raw:
+        for _ in range(2):
+            raw.sendall(LIVE)
+            answer = b""
+            while not answer.endswith(b'{"status":"ok"}'):
+                answer += raw.recv(65_536)
+            assert answer.startswith(b"HTTP/1.1 200 OK")
+
+
+@pytest.mark.parametrize(
+    ("size", "asked"),
+    [(MOST, READY), (MOST, LIVE + READY), (MOST, b"GET /livez"), (MOST + MAX_PROBES, b"")],
+    ids=["something else", "something else too", "a part", "too late"],
+)
+def test_beyond_the_most_connections_nothing_else_is_answered(server: httpx.Client, size: int, asked: bytes) -> None:
+    with crowd(server, size) as raw:
+        raw.sendall(asked)
+        answer = received(raw)
+    assert problem(answer) == (503, "overloaded")
+    assert b"retry-after:" in answer.lower()
+
+
+def test_when_they_are_gone_all_is_answered(server: httpx.Client) -> None:
+    with crowd(server, MOST):
+        pass
     time.sleep(0.2)
     assert server.get("/readyz").status_code == 200
