@@ -15,7 +15,7 @@ from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
 ROOT = Path(__file__).parents[1]
-LONG = ("service", "tests/service/jobs")
+LONG = ("service", "tests/service/jobs", "tests/benchmarks/test_reliability")
 """Beginnings of the scopes that take minutes."""
 
 settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)  # machines are noisy

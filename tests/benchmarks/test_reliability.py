@@ -9,15 +9,14 @@ import pytest
 from benchmarks.processes import Usage
 from benchmarks.reliability import Soak, soak, survive, write_at_once
 
-pytestmark = pytest.mark.long
-
 
 def test_what_was_acknowledged_survives_kills_at_random_moments(tmp_path: Path) -> None:
-    found = survive(tmp_path, kills=12)
+    found = survive(tmp_path, kills=20)
     assert (found.lost, found.refused, found.corrupt) == ([], [], [])
     assert found.good
 
 
+@pytest.mark.long
 def test_a_file_that_was_tampered_with_is_noticed(tmp_path: Path) -> None:
     assert not survive(tmp_path, kills=0).corrupt
     path = tmp_path / "cqltl.sqlite3"
@@ -29,10 +28,12 @@ def test_a_file_that_was_tampered_with_is_noticed(tmp_path: Path) -> None:
     assert _problems(tmp_path)
 
 
+@pytest.mark.long
 def test_eight_writers_on_two_services_are_all_answered(tmp_path: Path) -> None:
     assert write_at_once(tmp_path, writes=30) == []
 
 
+@pytest.mark.long
 def test_a_long_run_gathers_nothing(tmp_path: Path) -> None:
     found = soak(tmp_path, requests=500, jobs=25)
     assert found.after.descriptors <= found.before.descriptors + 2

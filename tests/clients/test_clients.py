@@ -1,4 +1,6 @@
-"""Clients generated from openapi.yaml go the whole path against a live server (`make clients`)."""
+"""Clients generated from openapi.yaml go the whole path against a live server: one in every run, all with `make clients`,
+which installs what generates them.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +15,6 @@ import pytest
 
 from benchmarks.server import serving
 from clients.generate import generate
-
-pytestmark = pytest.mark.long
 
 HERE = Path(__file__).parent
 OUTPUT = HERE.parents[1] / "build" / "clients"
@@ -34,12 +34,19 @@ def run(*command: str | Path, **environment: str) -> str:
     return result.stdout
 
 
-@pytest.mark.parametrize(("name", "script"), [("python", "drive_python.py"), ("python-httpx", "drive_python_httpx.py")])
+@pytest.mark.parametrize(
+    ("name", "script"),
+    [
+        pytest.param("python", "drive_python.py", marks=pytest.mark.long),
+        ("python-httpx", "drive_python_httpx.py"),
+    ],
+)
 def test_python(server: str, name: str, script: str) -> None:
     client = generate(name, OUTPUT)
     assert run(sys.executable, HERE / script, server, PYTHONPATH=str(client)) == "done\n"
 
 
+@pytest.mark.long
 def test_typescript(server: str) -> None:
     if shutil.which("npm") is None:
         pytest.skip("no npm to compile TypeScript with (Debian and Ubuntu: apt install npm)")
@@ -50,6 +57,7 @@ def test_typescript(server: str) -> None:
     assert run("node", client / "dist" / "drive.js", server) == "done\n"
 
 
+@pytest.mark.long
 def test_cpp_compiles() -> None:
     if shutil.which("cmake") is None or not Path("/usr/include/cpprest").is_dir():
         pytest.skip(

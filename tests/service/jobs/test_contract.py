@@ -157,6 +157,23 @@ def test_events_tell_how_far_a_job_is_and_how_it_ends(shared: Deployment) -> Non
     assert all(data["progress"]["states"] >= 0 for _, data in told)  # 0: a search that had nothing to look at
 
 
+def test_events_tell_sweeps_bounds_and_what_is_left(shared: Deployment) -> None:
+    """Of the rounds that the plan makes for ever, whose length takes the longest to find."""
+    with shared.client.stream("GET", f"{order(shared.client, SLOW)}/events") as response:
+        told = [data["progress"] for _, data in events(response)]
+    rounds = [progress for progress in told if progress["stage"] == "rounds"]
+    sweeps = [progress["sweep"] for progress in rounds]
+    assert sweeps == sorted(sweeps)
+    assert sweeps[-1] > 0
+    bounds = [(found["lower"], found["upper"]) for found in rounds if found["upper"] is not None]
+    widths = [upper - lower for lower, upper in bounds]
+    assert widths == sorted(widths, reverse=True)
+    assert widths[-1] >= 0
+    left = [progress["remaining_s"] for progress in rounds if progress["remaining_s"] is not None]
+    assert left
+    assert all(seconds >= 0 for seconds in left)
+
+
 def test_the_events_of_a_job_that_has_ended_are_its_end(shared: Deployment) -> None:
     url = order(shared.client, QUICK)
     ended = wait_for(shared.client, url, "succeeded")
