@@ -1,5 +1,5 @@
-"""Clients generated from openapi.yaml go the whole path against a live server: one in every run, all with `make clients`,
-which installs what generates them.
+"""Clients generated from openapi.yaml go the whole path against a live server: one in every run, all with `make
+clients`, which installs what generates them.
 """
 
 from __future__ import annotations
