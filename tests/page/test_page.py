@@ -123,24 +123,14 @@ def test_a_long_plan_is_cancelled_by_its_curl_command(visit: Open, site: httpx.C
     said(page, "Planning was cancelled.")
 
 
-def test_the_robot_is_dragged_in_the_middle_of_a_run_and_carries_on(visit: Open) -> None:
+@pytest.mark.parametrize("thing", ["robot", "towel"])
+def test_what_is_dragged_in_the_middle_of_a_run_carries_on_from_there(visit: Open, thing: str) -> None:
     page = visit()
     command(page, SHIP)
     said(page, "1. ")
     page.click("#play")
-    drag(page, "robot", "spot_5_1")
-    said(page, "Robot was moved to living room (column 5, row 1). The policy carries on.")
-    faster(page)
-    said(page, "Done: the task holds")
-
-
-def test_an_object_is_dragged_in_the_middle_of_a_run_and_fetched_from_there(visit: Open) -> None:
-    page = visit()
-    command(page, SHIP)
-    said(page, "1. ")
-    page.click("#play")
-    drag(page, "towel", "spot_5_1")
-    said(page, "Towel was moved to living room (column 5, row 1).")
+    drag(page, thing, "spot_5_1")
+    said(page, f"{thing.title()} was moved to living room (column 5, row 1). The policy carries on.")
     faster(page)
     said(page, "Done: the task holds")
 
