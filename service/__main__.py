@@ -22,6 +22,8 @@ from service.keys_command import add_keys_command, keys
 from service.settings import Settings
 from service.store.engine import is_postgresql
 
+INTERRUPTED = 130
+"""The exit status of what was interrupted, as shells have it."""
 PLAN_OPTIONS = ("objective", "verify", "no_relevance")
 """Arguments of `plan` that are members of the request's `options`."""
 NOT_MEMBERS = ("command", "server", "environment_file", "format", "gif", "answer")
@@ -29,7 +31,7 @@ NOT_MEMBERS = ("command", "server", "environment_file", "format", "gif", "answer
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the result is the exit status: 0 done, 1 refused, 2 not understood."""
+    """Run one command; the result is the exit status: 0 done, 1 refused, 2 not understood, 130 interrupted."""
     options = _parser().parse_args(arguments)
     try:
         settings = Settings()
@@ -56,6 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except CannotStartError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:  # Ctrl-C while it loads or waits, which needs no explanation
+        return INTERRUPTED
 
 
 def _parser() -> argparse.ArgumentParser:

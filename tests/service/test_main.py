@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -162,6 +167,17 @@ def test_a_port_that_is_taken(client: httpx.Client, tmp_path: Path) -> None:
     assert result.returncode == 1
     assert "--port" in result.stderr
     assert not (tmp_path / "unused").exists()
+
+
+def test_an_interruption_while_it_loads_needs_no_words(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "service", "serve", "--port", "0"]
+    environment = {**os.environ, "CQLTL_DATA_DIR": str(tmp_path), "CQLTL_DATABASE_URL": ""}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        while not (tmp_path / "cqltl.sqlite3").exists():
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=60)
+    assert (process.returncode, out, error) == (130, b"", b"")
 
 
 def test_a_worker_needs_postgresql(tmp_path: Path) -> None:
