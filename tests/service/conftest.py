@@ -113,8 +113,9 @@ def run_here(*arguments: str, data: Path, **environment: str) -> subprocess.Comp
         try:
             status = main(arguments)
         except SystemExit as refused:  # as Python ends then: a text is said, and the status is 1
-            status = refused.code if isinstance(refused.code, int) else 1
-            error.write(refused.code if isinstance(refused.code, str) else "")
+            said = isinstance(refused.code, str)
+            status = 1 if said else int(refused.code or 0)
+            error.write(str(refused.code) if said else "")
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 
