@@ -15,7 +15,6 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 
-import torch
 from tqdm import tqdm
 
 from benchmarks import language, teaching
@@ -66,7 +65,6 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=2.0, help="seconds for the sweeps of a plan")
     parser.add_argument("--most", type=int, help="commands; all if not given")
     options = parser.parse_args()
-    torch.set_num_threads(1)
     commands = list(understood(language.PARTS if options.part == "both" else (options.part,)))[: options.most]
     ends: Counter[str] = Counter()
     for text, formula, environment in tqdm(commands):

@@ -16,7 +16,6 @@ import statistics
 import time
 from itertools import cycle, islice
 
-import torch
 from tqdm import tqdm
 
 from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
@@ -73,7 +72,6 @@ def main() -> None:
     parser.add_argument("--tasks", type=int, nargs="+", default=[0, 100, 500])
     parser.add_argument("--most", type=int, default=30, help="commands of each task class")
     options = parser.parse_args()
-    torch.set_num_threads(1)
     translator, matcher = ComposedTranslator.load(SpanTranslator.load()), Matcher.load()
     print("| tasks taught | S and U, exact formula | median | 95th percentile |\n|---|---|---|---|")
     for count in options.tasks:

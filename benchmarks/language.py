@@ -21,7 +21,6 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Literal
 
-import torch
 import yaml
 
 from models.language import ComposedTranslator, SpanTranslator, TaughtTranslator, Utterance
@@ -172,7 +171,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--part", choices=[*PARTS, "both"], default="both")
     parser.add_argument("--failures", action="store_true", help="print what went wrong, of the development half only")
     options = parser.parse_args(arguments)
-    torch.set_num_threads(1)
     bench = Bench.load()
     for part in PARTS if options.part == "both" else (options.part,):
         report(bench, part, failures=options.failures and part == "development")

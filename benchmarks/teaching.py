@@ -24,7 +24,6 @@ from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from typing import Any, Literal
 
-import torch
 import yaml
 from tqdm import tqdm
 
@@ -197,7 +196,6 @@ def main() -> None:
     parser.add_argument("--failures", action="store_true", help="list them; for the development half only")
     parser.add_argument("--untaught", action="store_true", help="how sure it is of what was not taught, instead")
     options = parser.parse_args()
-    torch.set_num_threads(1)
     bench = Bench(PARTS if options.part == "both" else (options.part,))
     if options.untaught:
         print_doubts(bench)

@@ -2,7 +2,7 @@
 
     python -m benchmarks.translate [--sample 50] [--json FILE]
 
-Translates `--sample` commands of S and of U of both domains, the same ones each time, one at a time, with one torch
+Translates `--sample` commands of S and of U of both domains, the same ones each time, one at a time, with one
 thread, after as many others that are not counted: what was asked before would be answered from memory. The columns are
 the translator alone; with grounding, five readings put into their templates in an environment that holds every name of
 the set; and a POST to /translate on a server of its own over loopback, without and with that environment, on a
@@ -26,12 +26,12 @@ from pathlib import Path
 from typing import Any, get_args
 
 import httpx
-import torch
 
 from benchmarks.server import serving
 from models.language import BEAM_WIDTH
 from models.language.dataset import Domain, Part, generate, grounding_environment
 from models.language.reading import rank, rank_formulas
+from models.language.scene import Scene
 from models.logic import parse
 from models.queries import Template
 from models.world import Environment, load_environment
@@ -88,7 +88,7 @@ def ways(name: str, client: httpx.Client) -> dict[str, Callable[[Command], objec
         said = translate(command, BEAM_WIDTH)
         if translators.gives_formulas(name):
             return rank_formulas(((f.formula, f.confidence) for f in said), environment=command.environment)
-        return rank(command.text, said, template_of=known.get, environment=command.environment)
+        return rank(said, Scene(command.text, command.environment, known.get))
 
     connection = HTTPConnection(client.base_url.host, client.base_url.port or 80)
 
@@ -126,7 +126,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--translators", nargs="+", default=list(get_args(TranslatorKey)), help="which to measure")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
-    torch.set_num_threads(1)
     first, timed = commands(options.sample)
     with serving() as client:
         for domain in Domain:

@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import replace
 
 from models.language.reading import read
+from models.language.scene import Scene
 from models.language.translation import Translation
 from models.queries import Composition, ContextualQuery, Path, Query, Template, parameter_kinds, pointer_of
 from models.world import Environment, Symbol
@@ -36,7 +37,7 @@ def reread(text: str, reading: Understanding, taught: Taught, environment: Envir
     """The same reading of its query as it is now."""
     assert reading.query is not None
     said = [Translation(reading.query, reading.confidence)]
-    (found,) = read(text, said, template_of=taught.template, environment=environment)
+    (found,) = read(said, Scene(text, environment, taught.template))
     return of_reading(found, taught.stored)
 
 

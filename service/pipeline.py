@@ -24,7 +24,7 @@ from service.jobs import Commission, Planned
 from service.places import at
 from service.questions import Answer, Question, answered, left_out, question_of
 from service.services import LoadedEnvironment, Services
-from service.store import Once, StoredJob
+from service.store import Once, StoredJob, Versions
 from service.taught import Taught, read_template
 from service.translators import DEFAULT
 from service.understanding import Meaning, Understanding, nearest_tasks, understand
@@ -47,6 +47,7 @@ class Translated:
     readings: tuple[Understanding, ...]
     environment: Environment | None
     question: Question | None
+    versions: Versions  # of the store, under which it stays so
     nearest: tuple[str, ...] = ()  # known tasks, where none fits
 
     @property
@@ -114,14 +115,14 @@ def _translated(
     answers: Sequence[Answer],
     pointer: str,
 ) -> Translated:
-    world = None if environment is None else _situated(services, environment, state)
-    taught = services.known()
+    versions, taught = services.now()
+    world = None if environment is None else _situated(services, environment, state, versions)
     left, question = _heard(services, taught, text, world, translator, max(candidates, RIVALS), answers, pointer)
     if left or question:
-        return Translated(text, left[:candidates], world, question)
+        return Translated(text, left[:candidates], world, question, versions)
     with at(pointer):
         nearest = nearest_tasks(services, taught, text, world, translator=translator)
-    return Translated(text, (), world, None, nearest)
+    return Translated(text, (), world, None, versions, nearest)
 
 
 def _heard(
@@ -191,10 +192,10 @@ async def plan(
     return await services.jobs.plan(commission, wait_s=wait_s, once=once)
 
 
-def _situated(services: Services, name: str, state: State | None) -> Environment:
+def _situated(services: Services, name: str, state: State | None, versions: Versions | None = None) -> Environment:
     """A stored environment in a state."""
     with at("/environment"):
-        environment = services.environment(name).value
+        environment = services.environment(name, versions).value
     return _in_state(environment, state)
 
 

@@ -23,7 +23,7 @@ from service.freshness import Freshness
 from service.jobs import Executor
 from service.metrics import Metrics
 from service.settings import Settings
-from service.store import Store, StoredExample, StoredPolicy
+from service.store import Store, StoredExample, StoredPolicy, Versions
 from service.taught import KnownCache, Taught, TaughtCache, read_example
 from service.translators import Translators
 from service.worker import Workers
@@ -35,6 +35,8 @@ T = TypeVar("T")
 
 TRANSLATING = 1
 """Threads that translate."""
+ENVIRONMENTS = 64
+"""Environments that are held."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,13 +82,23 @@ class Services:
         self._networks = CapacityLimiter(TRANSLATING)
         self.freshness = Freshness(store)
         self._policies: ByteCache[str, tuple[StoredPolicy, Policy]] = ByteCache(settings.policy_cache_bytes)
-        self._parsed = lru_cache(maxsize=64)(_parse_environment)
+        self._parsed = lru_cache(maxsize=ENVIRONMENTS)(_parse_environment)
+        self._worlds: dict[str, tuple[int, LoadedEnvironment]] = {}  # by name, as of a version
 
-    def environment(self, name: str) -> LoadedEnvironment:
-        """The stored environment of that name; raises `UnknownEnvironmentError`."""
+    def environment(self, name: str, versions: Versions | None = None) -> LoadedEnvironment:
+        """The stored environment of that name, not older than versions that were read; raises
+        `UnknownEnvironmentError`.
+        """
+        held = self._worlds.get(name)
+        if held is not None and versions is not None and held[0] == versions.worlds:
+            return held[1]
         with self.store.read() as transaction:
-            text = transaction.environments.text(name)
-        return self._parsed(text)
+            found = self._parsed(transaction.environments.text(name))
+        if versions is not None:
+            if len(self._worlds) >= ENVIRONMENTS:
+                self._worlds = {}
+            self._worlds[name] = (versions.worlds, found)
+        return found
 
     def parsed(self, text: str) -> LoadedEnvironment:
         """An environment of its data as JSON text."""
@@ -94,8 +106,13 @@ class Services:
 
     def known(self) -> Taught:
         """The templates and the examples of now."""
+        return self.now()[1]
+
+    def now(self) -> tuple[Versions, Taught]:
+        """The versions of now, with the templates and the examples."""
         with self.store.read() as transaction:
-            return self._taught.of(transaction)
+            versions = transaction.versions()
+            return versions, self._taught.of(transaction, versions.lessons)
 
     def lessons(self, taught: Taught) -> Lessons:
         """What the default translator hears besides its networks."""

@@ -121,9 +121,8 @@ class TaughtCache:
         self._held: Taught | None = None
         self._lock = Lock()
 
-    def of(self, transaction: Transaction) -> Taught:
-        """What was taught, as the transaction sees it."""
-        version = transaction.versions().lessons
+    def of(self, transaction: Transaction, version: int) -> Taught:
+        """What was taught, as the transaction sees it, which sees this version of it."""
         held = self._held
         if held is not None and held.version == version:
             return held

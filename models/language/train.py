@@ -36,6 +36,7 @@ from models.language.composition.marks import MarkedReader
 from models.language.dataset import Domain, no_task
 from models.language.dataset.tasks import task_classes
 from models.language.encoder import Encoder, WordReader, encoder
+from models.language.encoder.torch_layers import on
 from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
@@ -128,7 +129,7 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
         print("matching", " ".join(f"{key} {value}" for key, value in step.items()), flush=True)
 
     network = matching.fit(course, settings, seed=seed, log=log)
-    model = calibrated(network, course, held_out, unseen, seed=seed)
+    model = calibrated(network.heads(), course, held_out, unseen, seed=seed)
     made = matching.record(settings, seed)
     save_model_of_matching(replace(model, training=made), folder)
     (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")
@@ -160,7 +161,7 @@ def _train(
 
 def _encoder(device: str) -> Encoder:
     """The encoder that is installed, on a device."""
-    return encoder() if device == "cpu" else Encoder.load(packed=False).to(device)
+    return encoder() if device == "cpu" else Encoder.load(build=on(device))
 
 
 def _chosen(usual: spans.Settings, options: argparse.Namespace) -> spans.Settings:

@@ -60,6 +60,10 @@ def _listed(sayings: dict[Quantifier, str], follows: Words) -> list[tuple[Words,
 
 _OPENINGS = sorted([*_listed(_SAYINGS, ()), *_listed(_PRONOUNS, (WHATEVER,))], key=lambda opening: -len(opening[0]))
 _FIRST = frozenset(opening[0] for opening, _, _ in _OPENINGS)
+_BEFORE = frozenset(opening for opening, _, follows in _OPENINGS if not follows)
+"""What stands before a phrase: all but the pronouns."""
+_LAST = frozenset(opening[-1] for opening in _BEFORE)
+_LENGTHS = sorted({len(opening) for opening in _BEFORE}, reverse=True)
 
 
 def quantified(phrase: str) -> Said:
@@ -89,12 +93,13 @@ def widened(said: Sequence[str], begin: int) -> int:
     """
     place = begin
     while place > 0:
-        for opening, _, follows in _OPENINGS:
-            start = place - len(opening)
-            if not follows and start >= 0 and tuple(said[start:place]) == opening:
-                of_all = opening == ("all",) and start > 0 and said[start - 1] in ("of", "above", "after")
+        last = said[place - 1]
+        for length in _LENGTHS if last in _LAST else ():
+            start = place - length
+            if start >= 0 and tuple(said[start:place]) in _BEFORE:
+                of_all = length == 1 and last == "all" and start > 0 and said[start - 1] in ("of", "above", "after")
                 return begin if of_all else start
-        if said[place - 1] not in DETERMINERS and said[place - 1] not in _NUMBERS:
+        if last not in DETERMINERS and last not in _NUMBERS:
             break
         place -= 1
     return begin

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from anyio.to_thread import run_sync
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 
 from models.logic import to_text as formula_text
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
@@ -32,21 +32,21 @@ router = APIRouter(tags=["language"])
     operation_id="translate",
     responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long", "wrong-answer"),
 )
-async def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
+async def post_translate(body: TranslateRequest, services: ServicesDep, request: Request) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
 
     def translated() -> TranslateResponse:
-        return translated_out(
-            translate(
-                services,
-                body.text,
-                environment=body.environment,
-                state=body.state,
-                translator=body.translator,
-                candidates=body.candidates,
-                answers=answers_in(body.answers),
-            )
+        found = translate(
+            services,
+            body.text,
+            environment=body.environment,
+            state=body.state,
+            translator=body.translator,
+            candidates=body.candidates,
+            answers=answers_in(body.answers),
         )
+        request.state.translated_under = found.versions  # for `service.http.shortcut`
+        return translated_out(found)
 
     return await services.in_turn(translated)
 

@@ -80,13 +80,8 @@ class Shortcut:
             await self._app(scope, receive, send)
 
     async def _translate(self, services: Services, body: ReadBody, scope: Scope, receive: Receive, send: Send) -> None:
-        try:
-            versions = await services.freshness.versions()
-        except SQLAlchemyError:  # the route says so
-            await self._app(scope, receive, send)
-            return
         kept = self._kept.get(body.data)
-        if kept is not None and kept.versions == versions:
+        if kept is not None and await _holds(services, kept):
             services.metrics.translated(kept.translator, kept.outcome, kept.confidence)
             await _answer(scope, send, "translate", kept.answer)
             return
@@ -97,7 +92,7 @@ class Shortcut:
             if message["type"] == "http.response.start":
                 status = message["status"]
             elif status == 200 and message["type"] == "http.response.body" and not message.get("more_body", False):
-                self._keep(body, versions, message["body"])
+                self._keep(body, scope["state"]["translated_under"], message["body"])
             await send(message)
 
         await self._app(scope, receive, keeping)
@@ -106,6 +101,14 @@ class Shortcut:
         said = json.loads(answer)
         kept = _Kept(versions, answer, body.value.get("translator", "default"), said["outcome"], said["confidence"])
         self._kept.put(body.data, kept, len(body.data) + len(answer) + OVERHEAD)
+
+
+async def _holds(services: Services, kept: _Kept) -> bool:
+    """Whether nothing has changed since."""
+    try:
+        return kept.versions == await services.freshness.versions()
+    except SQLAlchemyError:  # the route says so
+        return False
 
 
 def _step(services: Services, policy_id: str, body: ReadBody) -> bytes | None:

@@ -16,7 +16,7 @@ LESSONS = "lessons"
 WORLDS = "worlds"
 """Fact that counts the changes of environments."""
 
-_READ = select(facts.c.name, facts.c.value).where(facts.c.name.in_((LESSONS, WORLDS)))
+_READ = select(facts.c.name, facts.c.value).where((facts.c.name == LESSONS) | (facts.c.name == WORLDS))
 
 
 class Versions(NamedTuple):

@@ -7,6 +7,7 @@ import pytest
 from models.language import Translation
 from models.language.kinds import strangers
 from models.language.reading import STRANGE, rank, read
+from models.language.scene import Scene
 from models.logic import parse
 from models.queries import Example, learn, parse_query
 from models.world import builtin_environments, load_environment
@@ -25,7 +26,7 @@ TEMPLATES = {
 
 def counted(*queries: str) -> list[int]:
     translations = [Translation(parse_query(query), 0.5) for query in queries]
-    readings = read("", translations, template_of=TEMPLATES.get, environment=NAVIGATION)
+    readings = read(translations, Scene("", NAVIGATION, TEMPLATES.get))
     return strangers([(reading.grounded, reading.confidence) for reading in readings], TEMPLATES.get)
 
 
@@ -40,7 +41,7 @@ def test_only_readings_of_the_same_things_are_compared() -> None:
 
 def test_what_is_far_less_likely_does_not_tell_what_is_strange() -> None:
     said = [Translation(parse_query("move_to(bakery)"), 0.6), Translation(parse_query("navigate_one(bakery)"), 0.05)]
-    assert [reading.strange for reading in read("", said, template_of=TEMPLATES.get, environment=NAVIGATION)] == [0, 0]
+    assert [reading.strange for reading in read(said, Scene("", NAVIGATION, TEMPLATES.get))] == [0, 0]
 
 
 def test_parts_of_a_composition_count_one_by_one() -> None:
@@ -57,6 +58,6 @@ def test_what_means_nothing_is_left_alone() -> None:
 
 def test_the_likelier_task_gives_way_to_the_one_that_was_taught_with_such_things() -> None:
     said = [Translation(parse_query("move_to(bakery)"), 0.6), Translation(parse_query("navigate_one(bakery)"), 0.3)]
-    first, second = rank("go to the bakery", said, template_of=TEMPLATES.get, environment=NAVIGATION)
+    first, second = rank(said, Scene("go to the bakery", NAVIGATION, TEMPLATES.get))
     assert str(first.query) == "navigate_one(bakery)"
     assert second.confidence / first.confidence == pytest.approx(0.6 * STRANGE / 0.3)

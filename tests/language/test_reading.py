@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from models.language import Translation
 from models.language.reading import AMBIGUOUS, GROUNDED, MISSPELT, SENSELESS, Reading, rank, rank_formulas, read
+from models.language.scene import Scene
 from models.logic import parse, to_text
 from models.queries import AmbiguousGroundingError, ArityMismatchError, Example, learn, parse_query
 from models.world import UnknownObjectError, builtin_environments, load_environment
@@ -29,7 +30,7 @@ def said(*readings):
 
 
 def ranked(*readings, text="", environment=TOYS):
-    return rank(text, said(*readings), template_of=TEMPLATES.get, environment=environment)
+    return rank(said(*readings), Scene(text, environment, TEMPLATES.get))
 
 
 def test_what_makes_sense_comes_first():
@@ -66,9 +67,9 @@ def test_weights():
         "pickup(sphere, box)": SENSELESS,
     }
     translations = said(*((query, 0.1) for query in weights))
-    readings = read("", translations, template_of=TEMPLATES.get, environment=environment)
+    readings = read(translations, Scene("", environment, TEMPLATES.get))
     assert {str(reading.query): reading.weight for reading in readings} == pytest.approx(weights)
-    order = [str(r.query) for r in rank("", translations, template_of=TEMPLATES.get, environment=environment)]
+    order = [str(r.query) for r in rank(translations, Scene("", environment, TEMPLATES.get))]
     assert order == sorted(weights, key=lambda query: -weights[query])
     assert isinstance(readings[2].refusal, AmbiguousGroundingError)
     assert isinstance(readings[-1].refusal, ArityMismatchError)
@@ -136,14 +137,14 @@ def talks():
 )
 def test_parts_of_speech_do_not_depend_on_case_and_punctuation(talks, text, meant):
     template = learn([Example(parse_query("talk(ball)"), parse("F about(ball)"))], talks)
-    (reading,) = rank(text, said(("talk(orange)", 0.9)), template_of={"talk": template}.get, environment=talks)
+    (reading,) = rank(said(("talk(orange)", 0.9)), Scene(text, talks, {"talk": template}.get))
     assert reading.grounded is not None, reading.refusal
     assert to_text(reading.grounded.formula) == f'F about("{meant}")'
 
 
 def test_a_homonym_outside_the_text_stays_in_doubt(talks):
     template = learn([Example(parse_query("talk(ball)"), parse("F about(ball)"))], talks)
-    (reading,) = rank("hello", said(("talk(orange)", 0.9)), template_of={"talk": template}.get, environment=talks)
+    (reading,) = rank(said(("talk(orange)", 0.9)), Scene("hello", talks, {"talk": template}.get))
     assert isinstance(reading.refusal, AmbiguousGroundingError)
 
 

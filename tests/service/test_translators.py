@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from typing import get_args
@@ -55,3 +57,24 @@ def test_every_name_of_the_contract_is_a_translator() -> None:
     translators = Translators.shipped()
     kinds = {name: translators.gives_formulas(name) for name in get_args(TranslatorKey)}
     assert kinds == {DEFAULT: False, "cq-copynet": False, "cq-copynet-pos": False, "ltl-copynet": True}
+
+
+def test_the_default_one_needs_neither_torch_nor_scipy() -> None:
+    """They take seconds to load; a service that starts waits for neither, and nor does a worker."""
+    used = """
+import sys
+from service.app import create_app
+from service.translators import Translators
+from models.language.hearing import Lessons
+shipped = Translators.shipped()
+assert shipped.queries("default").translate("put the mug in the crate and then go to the attic")
+assert shipped.matcher.known([])== []
+print(sorted({"torch", "scipy", "spacy"} & set(sys.modules)))
+from models.language.tagging import part_of_speech
+assert part_of_speech("pick up the orange", "orange") == "noun"
+print("spacy" in sys.modules, "torch" in sys.modules)
+import torch
+"""
+    found = subprocess.run([sys.executable, "-c", used], capture_output=True, text=True, check=True, timeout=60)
+    assert found.stdout == "[]\nTrue False\n"
+    assert not found.stderr

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
-import torch
-from torch import Tensor
+import numpy as np
 
 from models.language.encoder import DeepReader, Encoder, WordReader, encoder
+from models.language.runtime import Floats
 from models.language.tokens import is_mark
 
 
@@ -33,7 +33,7 @@ class MarkedReader:
         """See `WordReader`."""
         return self.reader.size
 
-    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+    def read(self, texts: Sequence[Sequence[str]]) -> Floats:
         """See `WordReader`; 0 for marks."""
         places = [[place for place, word in enumerate(text) if not is_mark(word)] for text in texts]
         plain = [tuple(text[place] for place in kept) for text, kept in zip(texts, places, strict=True)]
@@ -42,9 +42,9 @@ class MarkedReader:
         width = max(map(len, texts))
         spoken = [row for row, kept in enumerate(places) if kept]
         if not spoken:
-            return torch.zeros(len(texts), width, self.size)
+            return np.zeros((len(texts), width, self.size), np.float32)
         found = self.reader.read([plain[row] for row in spoken])
-        vectors = found.new_zeros(len(texts), width, self.size)
+        vectors = np.zeros((len(texts), width, self.size), np.float32)
         for row, read in zip(spoken, found, strict=True):
             vectors[row, places[row]] = read[: len(places[row])]
         return vectors

@@ -72,8 +72,7 @@ class ComposedTranslator:
 
     reader: SpanEnsemble
     single: SpanTranslator
-    taught: Taught | None = None
-    nearby: Taught | None = None
+    knows: SpokenClauses | None = None
 
     @classmethod
     def load(cls, single: SpanTranslator, folder: Path | None = None, *, names: Sequence[str] = NAMES) -> Self:
@@ -84,7 +83,7 @@ class ComposedTranslator:
     @property
     def tasks(self) -> frozenset[str]:
         """The task classes that it was trained on."""
-        return frozenset(task for task, _ in self.single.reader.model.network.config.tasks)
+        return frozenset(task for task, _ in self.single.reader.model.config.tasks)
 
     @property
     def saying(self) -> frozenset[str]:
@@ -92,17 +91,17 @@ class ComposedTranslator:
         return self.reader.words
 
     def knowing(self, taught: Taught, *, nearby: Taught | None = None) -> Self:
-        """The same, with clauses that are said as they were taught; what clauses may say that say nothing else is asked
-        of `nearby`.
+        """The same for one command, with clauses that are said as they were taught; what clauses may say that say
+        nothing else is asked of `nearby`. However often it is asked for that command, each clause is read once.
         """
-        return replace(self, taught=taught, nearby=nearby or taught)
+        return replace(self, knows=SpokenClauses(self.single, taught, nearby or taught))
 
     def translate(self, text: str, *, candidates: int = 1) -> tuple[Translation, ...]:
         """See `Translator`."""
         spoken = marked_words(text)
         if not any(not is_mark(word) for word in spoken):
             return ()
-        understand = SpokenClauses(self.single, self.taught, self.nearby)
+        understand = self._clauses()
         whole = understand.alone(text)
         negated = not NEGATIONS.isdisjoint(spoken)
         if understood(whole) >= SURE and not negated:
@@ -137,7 +136,7 @@ class ComposedTranslator:
             return ()
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if has_several(shape.shape)]
-        found = self._weighed((), composed, spoken, SpokenClauses(self.single, self.taught, self.nearby))
+        found = self._weighed((), composed, spoken, self._clauses())
         return _ranked(found, 0.0 if asked else refusal, candidates)
 
     def forbids(self, text: str) -> float:
@@ -170,6 +169,10 @@ class ComposedTranslator:
     def refuses(self, text: str) -> float:
         """The probability that a text asks for nothing, of whatever task."""
         return self._shapes(marked_words(text))[1]
+
+    def _clauses(self) -> SpokenClauses:
+        """What clauses may say."""
+        return self.knows or SpokenClauses(self.single, None, None)
 
     def _weighed(
         self,

@@ -82,7 +82,8 @@ def save_model(model: Model, folder: Path) -> None:
         outputs=model.vocabulary.outputs,
         words=list(model.vocabulary.words),
     )
-    write_model(model.network, data, folder, model.name)
+    tensors = {key: tensor.numpy() for key, tensor in model.network.state_dict().items()}
+    write_model(tensors, data, folder, model.name)
 
 
 def load_model(system: System | str, domain: Domain | str, folder: Path | None = None) -> Model:

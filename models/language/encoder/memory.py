@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-import torch
-from torch import Tensor
+import numpy as np
+
+from models.language.runtime import Floats
 
 
 class WordReader(Protocol):
@@ -17,7 +18,7 @@ class WordReader(Protocol):
     def size(self) -> int:
         """Numbers in the vector of a word, D."""
 
-    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+    def read(self, texts: Sequence[Sequence[str]]) -> Floats:
         """[B, S, D] the vectors of folded words; 0 beyond the end of a text."""
 
 
@@ -31,19 +32,22 @@ class RememberingReader:
 
     reader: WordReader
     together: bool = False
-    _known: dict[tuple[str, ...], Tensor] = field(default_factory=dict, repr=False)
+    _known: dict[tuple[str, ...], Floats] = field(default_factory=dict, repr=False)
 
     @property
     def size(self) -> int:
         """See `WordReader`."""
         return self.reader.size
 
-    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+    def read(self, texts: Sequence[Sequence[str]]) -> Floats:
         """See `WordReader`."""
         asked = [tuple(text) for text in texts]
         new = [text for text in dict.fromkeys(asked) if text not in self._known]
         parts = [[text] for text in new] if not self.together else [new] if new else []
         for part in parts:
             for text, vectors in zip(part, self.reader.read(part), strict=True):
-                self._known[text] = vectors[: len(text)].clone()
-        return torch.nn.utils.rnn.pad_sequence([self._known[text] for text in asked], batch_first=True)
+                self._known[text] = vectors[: len(text)].copy()
+        found = np.zeros((len(asked), max(map(len, asked)), self.size), np.float32)
+        for row, text in enumerate(asked):
+            found[row, : len(text)] = self._known[text]
+        return found

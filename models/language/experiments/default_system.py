@@ -14,6 +14,7 @@ from models.language.experiments.causes import NO_TEMPLATE
 from models.language.experiments.commands import paper_sets
 from models.language.experiments.templates import given
 from models.language.reading import rank
+from models.language.scene import Scene
 from models.language.spans import (
     DEFAULT_NAME,
     SpanModel,
@@ -79,7 +80,7 @@ class DefaultSystem:
             translations = translations[:1]
         if not translations:
             return Answer()
-        readings = rank(text, translations, template_of=self.templates.get, environment=environment)
+        readings = rank(translations, Scene(text, environment, self.templates.get))
         if not readings:
             return Answer(_task(translations[0].query), refusal=NO_TEMPLATE, confidence=translations[0].confidence)
         best = readings[0]

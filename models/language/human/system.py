@@ -95,7 +95,7 @@ def word_reader() -> RememberingReader:
 @cache
 def shipped(name: str) -> SpanNet:
     """A network of the translator that serves."""
-    return load_model(name=name).network
+    return SpanNet.of(load_model(name=name))
 
 
 def fit(

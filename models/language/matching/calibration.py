@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from itertools import permutations, product
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
+from models.language.matching.heads import Heads
 from models.language.matching.late import Command, Known, KnownWords
 from models.language.matching.lessons import Lesson, Said
 from models.language.matching.model import MatchModel
-from models.language.matching.network import MatchNet
 from models.language.matching.training import Course, batch
 
 SHELVES, TASKS = 20, 60
@@ -36,21 +35,21 @@ class _Trial:
 
 
 def calibrated(
-    network: MatchNet, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], *, seed: int
+    heads: Heads, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], *, seed: int
 ) -> MatchModel:
-    """The network with the constants under which what is right in tasks that it never saw is likeliest.
+    """What was learned with the constants under which what is right in tasks that it never saw is likeliest.
 
     The tasks with as many arguments as the text are those that compete, as in use.
     """
     generator = random.Random(seed)
-    drawn = [trial for _ in range(SHELVES) for trial in _shelf(network, course, held_out, refused, generator)]
+    drawn = [trial for _ in range(SHELVES) for trial in _shelf(heads, course, held_out, refused, generator)]
     trials = _Trials.of(drawn)
     constants = max(
         product(STEEPNESS, THRESHOLDS, LESSER),
-        key=lambda c: trials.likelihood(MatchModel(network, c[0], c[1], c[2], 1.0, {})),
+        key=lambda c: trials.likelihood(MatchModel(heads, c[0], c[1], c[2], 1.0, {})),
     )
     steepness, threshold, lesser = constants
-    return MatchModel(network, steepness, threshold, lesser, _role_temperature(network, course, held_out), {})
+    return MatchModel(heads, steepness, threshold, lesser, _role_temperature(heads, course, held_out), {})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,20 +80,20 @@ class _Trials:
 
 
 def _shelf(
-    network: MatchNet, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], generator: random.Random
+    heads: Heads, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], generator: random.Random
 ) -> Iterator[_Trial]:
     """Texts with a shelf on which their tasks are or are not: half of the held-out ones, and tasks that were seen."""
     shown = generator.sample(list(held_out), len(held_out) // 2)
     kept = shown + generator.sample(list(course.lessons), TASKS - len(shown))
     split = [_example_texts(lesson, generator) for lesson in kept]
-    examples = KnownWords.of([_known(network, course, taught) for taught, _ in split])
-    cards = KnownWords.of([_known(network, course, lesson.cards) for lesson in kept])
+    examples = KnownWords.of([_known(heads, course, taught) for taught, _ in split])
+    cards = KnownWords.of([_known(heads, course, lesson.cards) for lesson in kept])
     arities = [len(lesson.cards[0].mentions) for lesson in kept]
     asked = [(text, number) for number, lesson in enumerate(shown) for text in split[number][1][:4]]
     absent = [lesson for lesson in held_out if lesson not in shown]
     asked += [(generator.choice(generator.choice(lesson.wordings)), -1) for lesson in absent]
     asked += [(text, -1) for text in generator.choices(list(refused), k=len(shown))]
-    for (text, right), (command, free) in zip(asked, _read(network, course, [text for text, _ in asked]), strict=True):
+    for (text, right), (command, free) in zip(asked, _read(heads, course, [text for text, _ in asked]), strict=True):
         fitting = [place for place, arity in enumerate(arities) if arity == len(text.mentions)]
         near = [known.nearness(command, [free])[0, fitting] for known in (examples, cards)]
         yield _Trial(near[0], near[1], fitting.index(right) if right >= 0 else -1)
@@ -108,24 +107,23 @@ def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said]
     return drawn[:count], drawn[count:]
 
 
-def _known(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[Known]:
+def _known(heads: Heads, course: Course, texts: Sequence[Said]) -> list[Known]:
     """As known commands without arguments."""
-    none = np.zeros((0, network.config.role), np.float32)
-    return [Known(command.words[free], command.weights(free), none) for command, free in _read(network, course, texts)]
+    none = np.zeros((0, heads.config.role), np.float32)
+    return [Known(command.words[free], command.weights(free), none) for command, free in _read(heads, course, texts)]
 
 
-@torch.inference_mode()
-def _read(network: MatchNet, course: Course, texts: Sequence[Said]) -> list[tuple[Command, list[int]]]:
+def _read(heads: Heads, course: Course, texts: Sequence[Said]) -> list[tuple[Command, list[int]]]:
     """What texts ask for, with their free words."""
     vectors, free, _, _ = batch(texts, course)
+    read = vectors.numpy()
     return [
-        (Command.of(network, vectors[row, : len(text.words)]), free[row].nonzero().flatten().tolist())
+        (Command.of(heads, read[row, : len(text.words)]), free[row].nonzero().flatten().tolist())
         for row, text in enumerate(texts)
     ]
 
 
-@torch.inference_mode()
-def _role_temperature(network: MatchNet, course: Course, held_out: Sequence[Lesson]) -> float:
+def _role_temperature(heads: Heads, course: Course, held_out: Sequence[Lesson]) -> float:
     """That under which the right order of mentions is likeliest, with one example."""
     trials = []
     for lesson in held_out:
@@ -133,7 +131,7 @@ def _role_temperature(network: MatchNet, course: Course, held_out: Sequence[Less
         if count < 2:
             continue
         for (first, *_), (second, *_) in zip(lesson.wordings, lesson.wordings[1:], strict=False):
-            one, other = (network.roles(course.read[t.words].float(), t.mentions).numpy() for t in (first, second))
+            one, other = (heads.roles(course.read[t.words].float().numpy(), t.mentions) for t in (first, second))
             trials.append([float((one[list(order)] * other).sum()) for order in permutations(range(count))])
 
     def likelihood(temperature: float) -> float:

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
-from models.language.matching.network import MatchNet
+from models.language.matching.heads import Heads
+from models.language.runtime import Floats
 
-Vectors = NDArray[np.float32]
+Vectors = Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,11 +38,9 @@ class Command:
     salience: Vectors
 
     @classmethod
-    @torch.inference_mode()
-    def of(cls, network: MatchNet, vectors: torch.Tensor) -> Self:
+    def of(cls, heads: Heads, vectors: Vectors) -> Self:
         """Of words with the vectors [S, D]."""
-        words, salience = network.commands(vectors[None])
-        return cls(words[0].numpy(), salience[0].numpy())
+        return cls(heads.words(vectors), heads.salience(vectors))
 
     def weights(self, free: Sequence[int]) -> Vectors:
         """[F] how much each of the free words matters, adding up to 1."""

@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
-import torch
+from numpy.typing import NDArray
 
 from models.language.encoder import Encoder, encoder
+from models.language.matching.config import ON, OUTSIDE
 from models.language.matching.late import Command, Known, KnownWords, Vectors
 from models.language.matching.model import MatchModel, load_model
-from models.language.matching.network import ON, OUTSIDE
 from models.language.spans.decoding import best_sequences, log_totals
 from models.language.spans.tags import Span
 from models.language.spans.translator import quantified
@@ -64,6 +64,7 @@ class Shelf:
     """Tasks to compare with, as arrays."""
 
     tasks: tuple[TaughtTask, ...]
+    arities: NDArray[np.intp]  # [K]
     _examples: KnownWords = field(repr=False)
     _cards: KnownWords = field(repr=False)
 
@@ -71,7 +72,8 @@ class Shelf:
     def of(cls, tasks: Iterable[TaughtTask]) -> Self:
         """Of some tasks."""
         kept = tuple(tasks)
-        return cls(kept, KnownWords.of([task.examples for task in kept]), KnownWords.of([task.cards for task in kept]))
+        examples, cards = (KnownWords.of(known) for known in ([t.examples for t in kept], [t.cards for t in kept]))
+        return cls(kept, np.array([task.arity for task in kept], np.intp), examples, cards)
 
     def nearness(self, command: Command, ways: Sequence[Sequence[int]]) -> tuple[Vectors, Vectors]:
         """[M, K] of a command, seen in M ways that differ in which words are free, to the nearest example of each task,
@@ -101,7 +103,7 @@ class Matcher:
 
     def from_bytes(self, data: bytes | None) -> Known | None:
         """The inverse of `to_bytes`; None of what another model read, or of nothing."""
-        key, config = self.model.key, self.model.network.config
+        key, config = self.model.key, self.model.heads.config
         if data is None or data[: len(key)] != key:
             return None
         free, begin = int.from_bytes(data[len(key) : len(key) + 2], "little"), len(key) + 2
@@ -113,16 +115,13 @@ class Matcher:
         """What there is to compare with in utterances of which it is known what they mention."""
         if not utterances:
             return []
-        with torch.inference_mode():
-            vectors = self.encoder.read_deeply([utterance.words for utterance in utterances])
-            return [
-                self._known(vectors[row, : len(utterance.words)], utterance) for row, utterance in enumerate(utterances)
-            ]
+        vectors = self.encoder.read_deeply([utterance.words for utterance in utterances])
+        return [self._known(vectors[row, : len(each.words)], each) for row, each in enumerate(utterances)]
 
-    def _known(self, vectors: torch.Tensor, utterance: Utterance) -> Known:
-        command = Command.of(self.model.network, vectors)
+    def _known(self, vectors: Vectors, utterance: Utterance) -> Known:
+        command = Command.of(self.model.heads, vectors)
         free = _free(len(utterance.words), [span for spans in utterance.mentions for span in spans])
-        roles = self._roles(vectors, [spans[0] for spans in utterance.mentions])
+        roles = self.model.heads.roles(vectors, [spans[0] for spans in utterance.mentions])
         parts = (command.words[free], command.weights(free), roles)
         return Known(*(part.astype("<f2").astype(np.float32) for part in parts))  # as it will be read from a store
 
@@ -159,8 +158,9 @@ class Matcher:
         """As `match`, for several texts at once, which is faster than one after the other."""
         spoken = [words(text) for text in texts]
         asked = [said for said in dict.fromkeys(spoken) if said and shelf.tasks]
+        fitting = np.array([fits(task.task) for task in shelf.tasks], bool)
         found = {
-            said: self._matched(said, vectors, shelf, candidates, fits, named(said))
+            said: self._matched(said, vectors, shelf, candidates, fitting, named(said))
             for said, vectors in zip(asked, self._vectors(asked), strict=True)
         }
         return [found.get(said, ()) for said in spoken]
@@ -168,15 +168,15 @@ class Matcher:
     def _matched(
         self,
         said: tuple[str, ...],
-        vectors: torch.Tensor,
+        vectors: Vectors,
         shelf: Shelf,
         candidates: int,
-        fits: Callable[[str], bool],
+        fitting: NDArray[np.bool_],
         named: Sequence[Span],
     ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
-        command = Command.of(self.model.network, vectors)
-        for task, mentions, likely in self._tasks(command, self._seen(said, vectors, named), shelf, fits):
+        command = Command.of(self.model.heads, vectors)
+        for task, mentions, likely in self._tasks(command, self._seen(said, vectors, named), shelf, fitting):
             if any(not CONNECTIVES.isdisjoint(said[slice(*span)]) for span in mentions.spans):
                 continue  # no phrase goes on in another clause
             if sum(end - begin for begin, end in mentions.spans) >= len(said):
@@ -189,8 +189,7 @@ class Matcher:
         ranked = sorted(found, key=lambda query: (-found[query], str(query)))
         return tuple(Translation(q, min(1.0, found[q])) for q in ranked[:candidates] if found[q] >= LEAST)
 
-    @torch.inference_mode()
-    def _vectors(self, texts: Sequence[tuple[str, ...]]) -> list[torch.Tensor]:
+    def _vectors(self, texts: Sequence[tuple[str, ...]]) -> list[Vectors]:
         """[S, D] of the words of each text."""
         if not texts:
             return []
@@ -204,20 +203,18 @@ class Matcher:
             return ()
         (vectors,) = self._vectors([said])
         ways = [seen.free for seen in self._seen(said, vectors)]
-        near = np.maximum(*shelf.nearness(Command.of(self.model.network, vectors), ways)).max(axis=0)  # [K]
+        near = np.maximum(*shelf.nearness(Command.of(self.model.heads, vectors), ways)).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, command: Command, seen: Sequence[_Seen], shelf: Shelf, fits: Callable[[str], bool]
+        self, command: Command, seen: Sequence[_Seen], shelf: Shelf, fitting: NDArray[np.bool_]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together."""
         examples, cards = shelf.nearness(command, [way.free for way in seen])
         points = self.model.points(examples, cards)  # [M, K]
-        arities = np.array([task.arity for task in shelf.tasks])
-        fitting = np.array([fits(task.task) for task in shelf.tasks])
         for row, way in enumerate(seen):
-            usable = fitting & (arities == len(way.spans))
+            usable = fitting & (shelf.arities == len(way.spans))
             odds = np.where(usable, np.exp(points[row] + (LIKELIER if way.named else 0.0)), 0.0)
             total = 1.0 + odds.sum()  # 1 for none of them
             for place in np.argsort(-odds, kind="stable")[:SEQUENCES]:
@@ -225,30 +222,29 @@ class Matcher:
                 if likely >= LEAST:
                     yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
 
-    @torch.inference_mode()
-    def _seen(self, said: tuple[str, ...], vectors: torch.Tensor, named: Sequence[Span] = ()) -> list[_Seen]:
+    def _seen(self, said: tuple[str, ...], vectors: Vectors, named: Sequence[Span] = ()) -> list[_Seen]:
         """The likeliest ways to see what a text with the vectors [S, D] mentions; what is named in it is one."""
-        network = self.model.network
-        emissions = network.tags(vectors[None]).double().numpy()  # [1, S, L]
-        moves = (network.transition + network.allowed).double().numpy()[None]
-        start = network.allowed_start.double().numpy()[None]
+        emissions = self.model.heads.tags(vectors)[None]  # [1, S, L]
+        moves, start = (scores[None] for scores in self.model.heads.moves())
         (total,) = log_totals(emissions, moves, start)
         ways: dict[tuple[Span, ...], float] = {_distinct(said, named): NAMED} if named else {}
         share = 1.0 - sum(ways.values())
         for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES)[0]:
             spans = _distinct(said, _spans(tags))
             ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
-        known = _distinct(said, named)
+        known, every = _distinct(said, named), list(dict.fromkeys(span for spans in ways for span in spans))
+        roles = dict(zip(every, self.model.heads.roles(vectors, every), strict=True))
+        none = np.zeros((0, self.model.heads.config.role), np.float32)
         return [
-            _Seen(spans, share, _free(len(said), spans), self._roles(vectors, spans), bool(named) and spans == known)
+            _Seen(
+                spans,
+                share,
+                _free(len(said), spans),
+                np.stack([roles[span] for span in spans]) if spans else none,
+                bool(named) and spans == known,
+            )
             for spans, share in ways.items()
         ]
-
-    def _roles(self, vectors: torch.Tensor, spans: Sequence[Span]) -> Vectors:
-        if not spans:
-            return np.zeros((0, self.model.network.config.role), np.float32)
-        roles: Vectors = self.model.network.roles(vectors, spans).numpy()
-        return roles
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,13 +11,12 @@ from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
-from safetensors.torch import load as load_tensors
 
-from models.language.matching.network import MatchConfig, MatchNet
-from models.language.model_files import reading, write_model
+from models.language.matching.config import MatchConfig
+from models.language.matching.heads import Heads
+from models.language.model_files import read_tensors, reading, write_model
 
 NAME = "matching"
 
@@ -35,7 +34,7 @@ class MatchModel:
         key: eight bytes that tell models apart, of one that was read from a file.
     """
 
-    network: MatchNet
+    heads: Heads
     steepness: float
     threshold: float
     lesser: float
@@ -71,14 +70,14 @@ class _ModelData(_Data):
 def save_model(model: MatchModel, folder: Path) -> None:
     """Write both files, replacing what is there; the same model gives the same bytes."""
     data = _ModelData(
-        network=_NetworkData(**asdict(model.network.config)),
+        network=_NetworkData(**asdict(model.heads.config)),
         steepness=model.steepness,
         threshold=model.threshold,
         lesser=model.lesser,
         role_temperature=model.role_temperature,
         training=dict(model.training),
     )
-    write_model(model.network, data, folder, NAME)
+    write_model(model.heads.tensors, data, folder, NAME)
 
 
 def load_model(folder: Path | None = None) -> MatchModel:
@@ -90,9 +89,8 @@ def load_model(folder: Path | None = None) -> MatchModel:
     place = files("models.language") / "weights" if folder is None else folder
     with reading(NAME):
         data = _ModelData.model_validate_json((place / f"{NAME}.json").read_text(encoding="utf-8"))
-        with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
-            network = MatchNet(MatchConfig(**data.network.model_dump()))
-        tensors = (place / f"{NAME}.safetensors").read_bytes()
-        network.load_state_dict(load_tensors(tensors), assign=True)
+        config = MatchConfig(**data.network.model_dump())
+        file = (place / f"{NAME}.safetensors").read_bytes()
+        heads = Heads(config, read_tensors(file, config.shapes()))
     constants = (data.steepness, data.threshold, data.lesser, data.role_temperature)
-    return MatchModel(network.eval(), *constants, data.training, hashlib.sha256(tensors).digest()[:8])
+    return MatchModel(heads, *constants, data.training, hashlib.sha256(file).digest()[:8])

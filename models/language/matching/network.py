@@ -13,34 +13,15 @@ Shapes: B texts, S words, D encoder, V its upper half, R of roles, 3 tags (outsi
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from models.language.spans.crf import FORBIDDEN
+from models.language.matching.config import LEFT, TAGS, MatchConfig
+from models.language.matching.heads import Heads, forbidden
 from models.language.spans.tags import Span
-
-TAGS = 3
-OUTSIDE, BEGIN, ON = range(TAGS)
-LEFT = 2
-"""Words before a mention that tell the part it plays: "to the", "instead of the"."""
-
-
-@dataclass(frozen=True, slots=True)
-class MatchConfig:
-    """The sizes of a network; `vector` is D, `role` is R."""
-
-    vector: int
-    role: int = 96
-    dropout: float = 0.3
-
-    @property
-    def word(self) -> int:
-        """V."""
-        return self.vector // 2
 
 
 class Commands(NamedTuple):
@@ -78,10 +59,13 @@ class MatchNet(nn.Module):
         self.role = nn.Linear(2 * config.vector, config.role)
         self.tag = nn.Linear(config.vector, TAGS)
         self.transition = nn.Parameter(torch.zeros(TAGS, TAGS))
-        moves = torch.zeros(TAGS, TAGS)
-        moves[OUTSIDE, ON] = FORBIDDEN
+        moves, start = (torch.from_numpy(scores).float() for scores in forbidden())
         self.register_buffer("allowed", moves, persistent=False)
-        self.register_buffer("allowed_start", torch.tensor([0.0, 0.0, FORBIDDEN]), persistent=False)
+        self.register_buffer("allowed_start", start, persistent=False)
+
+    def heads(self) -> Heads:
+        """What was learned, to be used without torch."""
+        return Heads(self.config, {name: tensor.numpy().copy() for name, tensor in self.state_dict().items()})
 
     def commands(self, vectors: Tensor) -> Commands:
         """What words with the vectors [B, S, D] ask for.

@@ -6,13 +6,15 @@ import random
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 
+import numpy as np
 import torch
 from torch import Tensor
 from torch.nn import functional
 
 from models.language.encoder import Encoder
+from models.language.matching.config import BEGIN, ON, OUTSIDE, MatchConfig
 from models.language.matching.lessons import Lesson, Said, texts_of
-from models.language.matching.network import BEGIN, ON, OUTSIDE, MatchConfig, MatchNet
+from models.language.matching.network import MatchNet
 from models.language.spans.crf import log_partition, score
 
 TEMPERATURE = 0.07
@@ -50,9 +52,8 @@ class Course:
         read: dict[tuple[str, ...], Tensor] = {}
         for start in range(0, len(said), 64):
             part = said[start : start + 64]
-            with torch.no_grad():
-                vectors = encoder.read_deeply(part).half()
-                read.update((text, found[: len(text)].clone()) for text, found in zip(part, vectors, strict=True))
+            vectors = torch.from_numpy(encoder.read_deeply(part).astype(np.float16))
+            read.update((text, found[: len(text)].clone()) for text, found in zip(part, vectors, strict=True))
         return cls(lessons, refused, read)
 
 

@@ -9,9 +9,6 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-FORBIDDEN = -1e4
-"""The score of what must not be: finite, so that sums of it have gradients."""
-
 
 def log_partition(emissions: Tensor, transitions: Tensor, start: Tensor, lengths: Tensor) -> Tensor:
     """The logarithm of the summed exponentials of all tag sequences' scores, [N].

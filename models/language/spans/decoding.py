@@ -16,7 +16,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from models.language.spans.crf import FORBIDDEN
+from models.language.spans.tags import FORBIDDEN
 
 TagScores = NDArray[np.float64]
 Tagged = tuple[float, tuple[int, ...]]
@@ -73,13 +73,14 @@ def best_sequences(
 def _best_first(first: TagScores, lost: TagScores, least: float) -> Iterator[Tagged]:
     """The sequences that score more than `least`, best first. `first` is [L], `lost` is [S - 1, L, L]."""
     found: list[Tagged] = [(-score, (tag,)) for tag, score in enumerate(first.tolist()) if score > least]
+    losses: list[list[list[float]]] = lost.tolist()  # one call, instead of one for each sequence that is opened
     heapq.heapify(found)
     while found:
         negative, tags = heapq.heappop(found)
-        if len(tags) > len(lost):
+        if len(tags) > len(losses):
             yield -negative, tags
             continue
         room = -negative - least
-        for tag, loss in enumerate(lost[len(tags) - 1, tags[-1]].tolist()):
+        for tag, loss in enumerate(losses[len(tags) - 1][tags[-1]]):
             if loss < room:
                 heapq.heappush(found, (negative + loss, (*tags, tag)))

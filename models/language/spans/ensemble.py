@@ -31,7 +31,7 @@ class SpanEnsemble:
     @property
     def words(self) -> frozenset[str]:
         """The words with embeddings of their own."""
-        return frozenset(word for reader in self.readers for word in reader.model.network.config.words)
+        return frozenset(word for reader in self.readers for word in reader.model.config.words)
 
     def read(self, spoken: Sequence[str]) -> Read:
         """The readings of one text that any reader has, by class in the order of the first reader's, each class's best
@@ -57,5 +57,5 @@ class SpanEnsemble:
                 key = (reading.task, reading.mentions)
                 before = found[key].probability if key in found else 0.0
                 found[key] = replace(reading, probability=before + share * reading.probability)
-        order = {task: place for place, (task, _) in enumerate(self.readers[0].model.network.config.tasks)}
+        order = {task: place for place, (task, _) in enumerate(self.readers[0].model.config.tasks)}
         return tuple(sorted(found.values(), key=lambda one: (order[one.task], -one.probability))), refusal

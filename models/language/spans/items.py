@@ -11,7 +11,8 @@ from torch import Tensor
 
 from models.language.dataset import Example
 from models.language.encoder import WordReader
-from models.language.spans.network import SpanConfig, SpanNet, TextBatch, log_likelihood
+from models.language.spans.config import SpanConfig
+from models.language.spans.network import SpanNet, TextBatch, log_likelihood
 from models.language.spans.tags import Span, tags_of
 from models.language.teaching.utterance import DETERMINERS
 from models.language.tokens import words

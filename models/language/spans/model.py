@@ -7,12 +7,11 @@ from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
 
-import torch
 from pydantic import BaseModel, ConfigDict, Field
-from safetensors.torch import load as load_tensors
 
-from models.language.model_files import reading, write_model
-from models.language.spans.network import SpanConfig, SpanNet
+from models.language.model_files import read_tensors, reading, write_model
+from models.language.runtime import Tensors
+from models.language.spans.config import SpanConfig
 
 DEFAULT_NAME = "cq-spans"
 """The model that is shipped."""
@@ -20,14 +19,16 @@ DEFAULT_NAME = "cq-spans"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SpanModel:
-    """A network with what makes it a translator.
+    """What was learned, with what makes it a translator.
 
     Attributes:
+        tensors: of the shapes `SpanConfig.shapes`.
         temperature: what its scores are divided by, so that its probabilities are those of being right.
         training: how it was made, for the record: seed, epochs, hyper-parameters.
     """
 
-    network: SpanNet
+    config: SpanConfig
+    tensors: Tensors
     temperature: float
     training: Mapping[str, str | int | float]
 
@@ -56,11 +57,11 @@ class _ModelData(_Data):
 def save_model(model: SpanModel, folder: Path, *, name: str = DEFAULT_NAME) -> None:
     """Write both files, replacing what is there; the same model gives the same bytes."""
     data = _ModelData(
-        network=_NetworkData(**asdict(model.network.config)),
+        network=_NetworkData(**asdict(model.config)),
         temperature=model.temperature,
         training=dict(model.training),
     )
-    write_model(model.network, data, folder, name)
+    write_model(model.tensors, data, folder, name)
 
 
 def load_model(folder: Path | None = None, *, name: str = DEFAULT_NAME) -> SpanModel:
@@ -72,7 +73,6 @@ def load_model(folder: Path | None = None, *, name: str = DEFAULT_NAME) -> SpanM
     place = files("models.language") / "weights" if folder is None else folder
     with reading(name):
         data = _ModelData.model_validate_json((place / f"{name}.json").read_text(encoding="utf-8"))
-        with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
-            network = SpanNet(SpanConfig(**data.network.model_dump()))
-        network.load_state_dict(load_tensors((place / f"{name}.safetensors").read_bytes()), assign=True)
-    return SpanModel(network.eval(), data.temperature, data.training)
+        config = SpanConfig(**data.network.model_dump())
+        tensors = read_tensors((place / f"{name}.safetensors").read_bytes(), config.shapes())
+    return SpanModel(config, tensors, data.temperature, data.training)

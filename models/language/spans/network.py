@@ -20,45 +20,11 @@ from torch import Tensor, nn
 from torch.nn.utils.rnn import pack_padded_sequence, pad_packed_sequence
 
 from models.language.encoder import WordReader
+from models.language.runtime import Floats
+from models.language.spans.config import SpanConfig
 from models.language.spans.crf import log_partition, score
-from models.language.spans.tags import MOST_ARGUMENTS, forbidden_moves, tag_count
-
-
-@dataclass(frozen=True, slots=True)
-class SpanConfig:
-    """The sizes of a network.
-
-    Attributes:
-        words: the words with embeddings of their own, by number from 1; 0 stands for all others.
-        tasks: the task classes, in the order of the network's outputs, with their numbers of arguments. One output
-            more, the last, says that no task fits.
-        vector: D.
-    """
-
-    words: tuple[str, ...]
-    tasks: tuple[tuple[str, int], ...]
-    vector: int
-    embedding: int = 48
-    projection: int = 96  # of the encoder's vectors
-    encoder: int = 96  # in each direction and layer
-    layers: int = 2
-    dropout: float = 0.25
-
-    def __post_init__(self) -> None:
-        if len(set(self.words)) != len(self.words) or len(dict(self.tasks)) != len(self.tasks):
-            raise ValueError("a network knows every word and every task once")
-        if not all(0 <= arity <= MOST_ARGUMENTS for _, arity in self.tasks):
-            raise ValueError(f"a task has between 0 and {MOST_ARGUMENTS} arguments")
-
-    @property
-    def no_task(self) -> int:
-        """The output that says that no task fits, K."""
-        return len(self.tasks)
-
-    @property
-    def tags(self) -> int:
-        """L."""
-        return tag_count(arity for _, arity in self.tasks)
+from models.language.spans.model import SpanModel
+from models.language.spans.tags import forbidden_moves
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +52,8 @@ class TextBatch:
             if hidden is not None:
                 known = [0 if absent else number for number, absent in zip(known, hidden[row], strict=True)]
             ids[row, : len(text)] = torch.tensor(known)
-        return cls(ids, encoder.read(texts).clone(), torch.tensor([len(text) for text in texts]))
+        vectors = torch.from_numpy(encoder.read(texts).copy())
+        return cls(ids, vectors, torch.tensor([len(text) for text in texts]))
 
     def to(self, device: torch.device) -> TextBatch:
         """The same on a device."""
@@ -98,7 +65,7 @@ class Scores:
     """What the network says of B texts."""
 
     tasks: Tensor  # [B, K + 1], not normalised
-    states: Tensor  # [B, S, H], of which the scores of tags are made: see `SpanNet.emissions`
+    states: Tensor  # [B, S, H], of which the scores of tags are made
 
 
 class SpanNet(nn.Module):
@@ -110,7 +77,7 @@ class SpanNet(nn.Module):
     def __init__(self, config: SpanConfig) -> None:
         super().__init__()
         self.config = config
-        tasks, tags, states = len(config.tasks), config.tags, 2 * config.encoder
+        tasks, tags, states = len(config.tasks), config.tags, config.states
         self.embedding = nn.Embedding(len(config.words) + 1, config.embedding)
         self.projection = nn.Linear(config.vector, config.projection)
         self.dropout = nn.Dropout(config.dropout)
@@ -128,6 +95,18 @@ class SpanNet(nn.Module):
         rules = [forbidden_moves(arity, tags) for _, arity in config.tasks]
         self.register_buffer("allowed", torch.tensor([moves for moves, _ in rules]), persistent=False)  # [K, L, L]
         self.register_buffer("allowed_start", torch.tensor([start for _, start in rules]), persistent=False)  # [K, L]
+
+    @classmethod
+    def of(cls, model: SpanModel) -> Self:
+        """The network of a model, to be learned from."""
+        with torch.random.fork_rng(devices=[]):  # its first values are thrown away; the caller's generator stays
+            network = cls(model.config)
+        network.load_state_dict({name: torch.from_numpy(tensor.copy()) for name, tensor in model.tensors.items()})
+        return network.eval()
+
+    def tensors(self) -> dict[str, Floats]:
+        """What was learned, by name."""
+        return {name: tensor.cpu().numpy().copy() for name, tensor in self.state_dict().items()}
 
     @torch.no_grad()
     def reading_like(self, other: SpanNet) -> None:
@@ -165,20 +144,10 @@ class SpanNet(nn.Module):
         return Scores(self.task(self.dropout(torch.cat([highest, mean], dim=1))), states)
 
     def _encoded(self, read: Tensor, lengths: Tensor) -> Tensor:
-        """[B, S, H] the states of texts [B, S, E]; one text is padded nowhere, and needs no packing."""
-        if len(lengths) == 1:
-            alone: Tensor = self.encoder(read)[0]
-            return alone
+        """[B, S, H] the states of texts [B, S, E]."""
         packed = pack_padded_sequence(read, lengths, batch_first=True, enforce_sorted=False)
         states, _ = pad_packed_sequence(self.encoder(packed)[0], batch_first=True)
         return states
-
-    def emissions(self, states: Tensor, tasks: Sequence[int]) -> Tensor:
-        """[S, N, L] the scores of every tag of a text's words, whose states are [S, H], under N of the tasks."""
-        count, tags = len(self.config.tasks), self.config.tags
-        weight, bias = self.tag.weight.view(count, tags, -1)[tasks], self.tag.bias.view(count, tags)[tasks]
-        found = nn.functional.linear(states, weight.flatten(0, 1), bias.flatten())  # [S, N * L]
-        return found.view(len(states), len(tasks), tags)
 
 
 def log_likelihood(

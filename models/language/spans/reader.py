@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Self
 
-import torch
-from torch import Tensor
+import numpy as np
 
 from models.language.encoder import WordReader, encoder
+from models.language.runtime import Floats
 from models.language.spans.decoding import TagScores, best_sequences, log_totals
 from models.language.spans.model import SpanModel
-from models.language.spans.network import TextBatch
-from models.language.spans.tags import OUTSIDE, Span, begins, mentions_of
+from models.language.spans.scorer import SpanScorer
+from models.language.spans.tags import OUTSIDE, Span, begins, forbidden_moves, mentions_of
 
 SEQUENCES = 16
 """Tag sequences read out for each task class; different ones may say the same query, and their probabilities add up."""
@@ -45,55 +45,57 @@ Read = tuple[tuple[SpanReading, ...], float]
 class SpanReader:
     """Reads folded words."""
 
-    model: SpanModel
-    encoder: WordReader
-    _numbers: Mapping[str, int] = field(repr=False)
+    scorer: SpanScorer
     _transitions: TagScores = field(repr=False)  # [K, L, L]
     _start: TagScores = field(repr=False)  # [K, L]
 
     @classmethod
     def of(cls, model: SpanModel, words: WordReader | None = None) -> Self:
         """The reader of a model; without `words`, it reads words with the encoder that is installed."""
-        network = model.network
-        numbers = {word: number for number, word in enumerate(network.config.words, start=1)}
-        transitions = network.transition.detach().double() / model.temperature + network.allowed
-        return cls(model, words or encoder(), numbers, transitions.numpy(), network.allowed_start.double().numpy())
+        rules = [forbidden_moves(arity, model.config.tags) for _, arity in model.config.tasks]
+        allowed, start = (np.array(part) for part in zip(*rules, strict=True))
+        transitions = model.tensors["transition"].astype(np.float64) / model.temperature + allowed
+        return cls(SpanScorer.of(model, words or encoder()), transitions, start)
+
+    @property
+    def model(self) -> SpanModel:
+        """What it reads with."""
+        return self.scorer.model
 
     def read(self, spoken: Sequence[str]) -> Read:
         """The readings of one text, and the probability that no class fits."""
         return self.read_all([spoken])[0]
 
-    @torch.inference_mode()
     def read_all(self, texts: Sequence[Sequence[str]]) -> list[Read]:
         """For each text the readings in order of the classes, each class's best first, and the probability that no
         class fits.
 
         The probability of a reading is that of its class times that of its tag sequence.
         """
-        scores = self.model.network(TextBatch.of(texts, self._numbers, self.encoder))
-        tasks = (scores.tasks / self.model.temperature).softmax(dim=1).tolist()  # [B][K + 1]
+        scores, states = self.scorer.scores(texts)
+        points = scores.astype(np.float64) / self.model.temperature  # [B, K + 1]
+        tasks = np.exp(points - np.logaddexp.reduce(points, axis=1, keepdims=True)).tolist()
         return [
-            (self._readings(text, states[: len(text)], likely), likely[-1])
-            for text, states, likely in zip(texts, scores.states, tasks, strict=True)
+            (self._readings(text, states[row, : len(text)], likely), likely[-1])
+            for row, (text, likely) in enumerate(zip(texts, tasks, strict=True))
         ]
 
-    def _readings(self, spoken: Sequence[str], states: Tensor, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
+    def _readings(self, spoken: Sequence[str], states: Floats, tasks: Sequence[float]) -> tuple[SpanReading, ...]:
         """The readings of one text. `states` is [S, H]."""
         likely = [task for task, probability in enumerate(tasks[:-1]) if probability >= LEAST_TASK]
         if not likely:
             return ()
         # The tags of arguments that no class has are forbidden: leave them out.
-        used = begins(max(self.model.network.config.tasks[task][1] for task in likely))
-        emissions = self.model.network.emissions(states, likely).transpose(0, 1)  # [N, S, L]
-        said = emissions[:, :, :used].double().numpy() / self.model.temperature
+        classes = [self.model.config.tasks[task] for task in likely]
+        used = begins(max(arity for _, arity in classes))
+        said = self.scorer.emissions(states, likely, used) / self.model.temperature  # [N, S, L]
         transitions, start = self._transitions[likely, :used, :used], self._start[likely, :used]
         totals = log_totals(said, transitions, start).tolist()
         least = [total + math.log(LEAST / tasks[task]) for task, total in zip(likely, totals, strict=True)]
         found = best_sequences(said, transitions, start, count=SEQUENCES, least=least)
         return tuple(
             SpanReading(name, mentions, tasks[task] * math.exp(min(0.0, score - total)), self._strange(spoken, tags))
-            for task, total, sequences in zip(likely, totals, found, strict=True)
-            for name, arity in [self.model.network.config.tasks[task]]
+            for task, (name, arity), total, sequences in zip(likely, classes, totals, found, strict=True)
             for score, tags in sequences
             if all(mentions := mentions_of(tags, arity))
         )
@@ -101,4 +103,4 @@ class SpanReader:
     def _strange(self, spoken: Sequence[str], tags: Sequence[int]) -> frozenset[int]:
         """The words that are taken for names and that wordings never use."""
         named = (place for place, tag in enumerate(tags) if tag != OUTSIDE)
-        return frozenset(place for place in named if spoken[place] not in self._numbers)
+        return frozenset(place for place in named if spoken[place] not in self.scorer.numbers)

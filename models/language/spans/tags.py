@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from models.language.spans.crf import FORBIDDEN
-
 OUTSIDE = 0
 MAX_ARGUMENTS = 4
 """Arguments of a task class that every network has tags for, and the most clauses of a composed command."""
@@ -13,6 +11,8 @@ MOST_ARGUMENTS = 16
 """The most arguments of a task class, as of a contextual query."""
 TAGS = 1 + 2 * MAX_ARGUMENTS
 """The tags of `MAX_ARGUMENTS`: `OUTSIDE`, then two for each argument position."""
+FORBIDDEN = -1e4
+"""The score of what must not be: finite, so that sums of it have gradients."""
 Span = tuple[int, int]
 """A half-open range of the words of a text."""
 

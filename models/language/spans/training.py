@@ -12,9 +12,10 @@ import torch
 from models.language.encoder import RememberingReader, WordReader, encoder
 from models.language.errors import TrainingError
 from models.language.spans.calibration import best_temperature
+from models.language.spans.config import SpanConfig
 from models.language.spans.items import Item, batches, likelihood, likelihoods
 from models.language.spans.model import SpanModel
-from models.language.spans.network import SpanConfig, SpanNet
+from models.language.spans.network import SpanNet
 
 Epoch = dict[str, float]
 """One line of a training curve: the epoch, its mean loss, and the loss on the texts that are only looked at."""
@@ -162,4 +163,4 @@ def _calibrated(
     with torch.inference_mode():
         parts = [likelihoods(network, checks[at : at + 256], words) for at in range(0, len(checks), 256)]
         temperature = best_temperature(lambda t: sum(float(part(t).sum()) for part in parts))
-    return SpanModel(network, temperature, record)
+    return SpanModel(network.config, network.tensors(), temperature, record)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pytest
-import torch
-from torch import Tensor
 
 from models.language.encoder import RememberingReader, encoder
+from models.language.runtime import Floats
 
 
 class _Counting:
@@ -18,7 +18,7 @@ class _Counting:
         self.batches: list[list[tuple[str, ...]]] = []
         self.size = encoder().size
 
-    def read(self, texts: Sequence[Sequence[str]]) -> Tensor:
+    def read(self, texts: Sequence[Sequence[str]]) -> Floats:
         self.batches.append([tuple(text) for text in texts])
         return encoder().read(texts)
 
@@ -47,4 +47,4 @@ def test_vectors_are_those_of_the_encoder(together: bool) -> None:
     for batch in BATCHES:
         found, expected = remembering.read(batch), encoder().read(batch)
         assert found.shape == expected.shape
-        torch.testing.assert_close(found, expected, rtol=1e-4, atol=1e-5)
+        np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-5)

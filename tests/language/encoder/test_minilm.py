@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from pathlib import Path
 
+import numpy as np
 import pytest
 import torch
 from safetensors.torch import load_file, save
@@ -12,7 +13,11 @@ from torch import Tensor, nn
 
 from models.language import WeightsError
 from models.language.encoder import Encoder, encoder
-from models.language.encoder.minilm import HEADS, KEPT, MOST_PIECES, PACKAGE
+from models.language.encoder.layers import HEADS
+from models.language.encoder.minilm import KEPT, LAYERS, LOWER, MOST_PIECES, PACKAGE
+from models.language.encoder.pieces import Pieces
+from models.language.encoder.torch_layers import on
+from models.language.runtime import Floats
 from models.language.tokens import words
 
 SHIP = tuple(words("put the cylinder in the box then put the box in the bedroom"))
@@ -29,18 +34,18 @@ def test_a_text_has_the_same_vectors_alone_and_with_others() -> None:
     alone = encoder().read([SHIP])
     together = encoder().read([("go",), SHIP, SHIP[:4]])
     assert alone.shape == (1, len(SHIP), encoder().size)
-    assert torch.allclose(together[1], alone[0], atol=1e-4)
+    np.testing.assert_allclose(together[1], alone[0], atol=1e-4)
     assert not together[0, 1:].any()
-    assert torch.equal(encoder().read([SHIP]), alone)
+    assert np.array_equal(encoder().read([SHIP]), alone)
 
 
 def test_words_mean_something_where_they_stand() -> None:
-    def vector(text: str, word: str) -> Tensor:
+    def vector(text: str, word: str) -> Floats:
         spoken = text.split()
         return encoder().read([spoken])[0, spoken.index(word)]
 
-    def near(one: Tensor, other: Tensor) -> float:
-        return float(torch.cosine_similarity(one, other, dim=0))
+    def near(one: Floats, other: Floats) -> float:
+        return float(one @ other / np.linalg.norm(one) / np.linalg.norm(other))
 
     fruit, color = vector("pick up the orange", "orange"), vector("paint the wall orange now", "orange")
     apple = vector("pick up the apple", "apple")
@@ -58,12 +63,37 @@ def test_the_layers_compute_what_torchs_encoder_does() -> None:
     embedded = embedded + weights["embeddings.position_embeddings.weight"][: len(numbers)]
     norm = (weights["embeddings.LayerNorm.weight"], weights["embeddings.LayerNorm.bias"])
     states = nn.functional.layer_norm(embedded, (embedded.shape[1],), *norm, eps=1e-12)[None]
-    kept = []
-    for number in range(max(KEPT) + 1):
+    after = []
+    for number in range(LAYERS):
         states = _reference(weights, f"encoder.layer.{number}")(states)
-        kept.append(states)
-    expected = torch.cat([kept[number] for number in KEPT], dim=2)[0, 1:-1]
-    assert torch.allclose(encoder().read([SHIP])[0], expected.detach(), atol=1e-4)
+        after.append(states.detach()[0, 1:-1].numpy())
+    lower, deep = ([*KEPT], [LOWER - 1, LAYERS - 1])
+    for found, kept in ((encoder().read([SHIP])[0], lower), (encoder().read_deeply([SHIP])[0], deep)):
+        np.testing.assert_allclose(found, np.concatenate([after[number] for number in kept], axis=1), atol=1e-4)
+
+
+def test_a_word_is_the_mean_of_its_pieces() -> None:
+    """Each piece as a word of its own stands where it stood, so the layers see no difference."""
+    text = ("grab", "the", "screwdrivers")
+    pieces = [encoder().pieces.cut(word) for word in text]
+    assert [len(each) for each in pieces] == [1, 1, 3]
+
+    class Apart(Pieces):
+        def cut(self, word: str) -> tuple[int, ...]:
+            return (int(word),)
+
+    apart = Encoder.load()
+    apart.pieces = Apart(encoder().pieces.numbers)
+    each = apart.read([[str(number) for cut in pieces for number in cut]])[0]
+    np.testing.assert_allclose(encoder().read([text])[0], [each[0], each[1], each[2:].mean(axis=0)], atol=1e-5)
+
+
+def test_torch_reads_alike() -> None:
+    """On a device of torch's, where networks may be trained; this one is always there."""
+    other = Encoder.load(build=on("cpu"))
+    texts = [SHIP, ("go",), SHIP[:4]]
+    np.testing.assert_allclose(other.read(texts), encoder().read(texts), atol=1e-4)
+    np.testing.assert_allclose(other.read_deeply(texts), encoder().read_deeply(texts), atol=1e-4)
 
 
 def _reference(weights: dict[str, Tensor], name: str) -> nn.TransformerEncoderLayer:

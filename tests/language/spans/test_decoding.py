@@ -11,8 +11,9 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from models.language.spans.crf import FORBIDDEN, log_partition
+from models.language.spans.crf import log_partition
 from models.language.spans.decoding import TagScores, best_sequences, log_totals
+from models.language.spans.tags import FORBIDDEN
 
 
 def random_fields(seed: int, fields: int, length: int, tags: int) -> tuple[TagScores, TagScores, TagScores]:

@@ -31,7 +31,7 @@ def shipped() -> SpanReader:
 
 
 def test_probabilities_are_means(shipped: SpanReader) -> None:
-    tasks = [task for task, _ in shipped.model.network.config.tasks]
+    tasks = [task for task, _ in shipped.model.config.tasks]
     one = Said(shipped, (tasks[2], 0, 0.5), (tasks[2], 1, 0.25), none=0.25)
     other = Said(shipped, (tasks[0], 1, 0.25), (tasks[2], 1, 0.5), none=0.125)
     readings, none = SpanEnsemble([one, other]).read(("go",))  # type: ignore[list-item]

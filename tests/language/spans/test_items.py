@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from models.language.dataset import Domain, fill, generate
 from models.language.encoder import encoder
+from models.language.spans.config import SpanConfig
 from models.language.spans.decoding import best_sequences
 from models.language.spans.items import Item, batches, likelihood
-from models.language.spans.network import SpanConfig, SpanNet, TextBatch
+from models.language.spans.network import SpanNet, TextBatch
 from models.language.spans.tags import mentions_of
 
 SHIP = "Put the {object} in the {container}, then put the {container} in the {location}"
@@ -65,7 +66,7 @@ def test_the_probabilities_of_all_readings_of_a_text_add_up_to_one(network: Span
     scores = network(TextBatch.of([text], numbers, encoder()))
     for task, (name, arity) in enumerate(network.config.tasks):
         field = (
-            network.emissions(scores.states[0], [task])[:, 0],
+            network.tag(scores.states[0]).unflatten(1, (len(network.config.tasks), -1))[:, task],
             network.transition[task] + network.allowed[task],
             network.allowed_start[task],
         )

@@ -13,8 +13,10 @@ from hypothesis import strategies as st
 
 from models.language import BEAM_WIDTH, MAX_WORDS, SpanTranslator, TextTooLongError, Translation, Translator
 from models.language.dataset import Domain, Example, Part, by_task, generate, no_task, open_world
+from models.language.encoder import encoder
 from models.language.experiments import DefaultSystem
 from models.language.spans.items import Item, likelihood
+from models.language.spans.network import SpanNet
 from models.language.tokens import words
 from models.logic import parse
 from models.queries import ContextualQuery, parse_query, resolve_grounded
@@ -163,9 +165,9 @@ def test_the_confidence_is_the_sum_over_the_taggings_that_say_the_query(translat
     assert reading.query == parse_query("ship(mug, crate, attic)")
     both, first, second = (((5, 6), (9, 10)), ((5, 6),), ((9, 10),))
     items = [Item(text, "ship", (((2, 3),), crates, ((12, 13),))) for crates in (both, first, second)]
-    reader = translator.reader
+    model = translator.reader.model
     with torch.inference_mode():
-        likelihoods = likelihood(reader.model.network, items, reader.encoder, temperature=reader.model.temperature)
+        likelihoods = likelihood(SpanNet.of(model), items, encoder(), temperature=model.temperature)
     assert reading.confidence == pytest.approx(float(likelihoods.exp().sum()), abs=1e-3)
 
 
