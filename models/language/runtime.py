@@ -1,9 +1,8 @@
 """Trained networks as ONNX Runtime runs them, on one thread.
 
-torch trains, ONNX Runtime translates: for a text of a dozen words it takes two thirds of torch's time or less, because
-its layers are laid out once for the processor and calls cost little, and it is loaded in a twentieth of the time. What
-only translates does not load torch at all. `python -m benchmarks.translate` and `python -m benchmarks.startup` measure
-both.
+torch trains, ONNX Runtime translates: its layers are laid out once for the processor, a call costs little, which counts
+for a text of a dozen words, and it is loaded in no time. What only translates does not load torch at all.
+`python -m benchmarks.translate` and `python -m benchmarks.startup` measure both.
 """
 
 from __future__ import annotations

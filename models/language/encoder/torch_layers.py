@@ -1,4 +1,4 @@
-"""Layers of BERT on a device of torch's: to train networks on a GPU, where reading words takes most of the time."""
+"""Layers of BERT on a device of torch's: to train networks on a GPU."""
 
 from __future__ import annotations
 
