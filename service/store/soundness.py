@@ -37,7 +37,8 @@ def check_store(url: str, known: Collection[str], *, whole: bool = False) -> Non
     if is_postgresql(url):
         with opened(url) as connection:
             tables = set(inspect(connection).get_table_names())
-            _check_tables(shown(url), tables & TABLES, _revision(connection), known)  # it may hold other things too
+            revision = _revision(connection, tables)
+        _check_tables(shown(url), tables & TABLES, revision, known)  # it may hold other things too
         return
     path = sqlite_file(url)
     if path is not None and path.exists():
@@ -113,8 +114,8 @@ def _check_sqlite(path: Path, known: Collection[str], *, thorough: bool) -> None
         connection.close()
 
 
-def _revision(connection: Connection) -> str | None:
-    if not inspect(connection).has_table("alembic_version"):
+def _revision(connection: Connection, tables: Collection[str]) -> str | None:
+    if "alembic_version" not in tables:  # another may migrate meanwhile: one look at the tables decides
         return None
     found = connection.scalar(text("SELECT version_num FROM alembic_version"))
     return None if found is None else str(found)

@@ -8,9 +8,10 @@ import sqlite3
 from pathlib import Path
 
 import pytest
+from sqlalchemy import Engine, event
 
 from service.store.engine import open_engine
-from service.store.migrate import migrate
+from service.store.migrate import migrate, revisions
 from service.store.soundness import UnusableStoreError, check_store
 from tests.service.postgres import Postgres
 
@@ -150,6 +151,24 @@ def test_postgresql_of_something_else(postgres: Postgres) -> None:
     with pytest.raises(UnusableStoreError, match="9999"):
         migrate(url)
     engine.dispose()
+
+
+def test_postgresql_that_another_migrates_while_it_is_looked_at(postgres: Postgres) -> None:
+    url, known, seen = postgres.database(), revisions(), False
+
+    def migrate_once(*_: object) -> None:
+        nonlocal seen
+        if not seen:
+            seen = True
+            migrate(url)
+
+    event.listen(Engine, "after_cursor_execute", migrate_once)
+    try:
+        check_store(url, known)  # its first statement finds no table, its next would find all
+    finally:
+        event.remove(Engine, "after_cursor_execute", migrate_once)
+    assert seen
+    check_store(url, known)
 
 
 def test_postgresql_that_is_not_there() -> None:
