@@ -29,8 +29,4 @@ class Freshness:
         if before is not None:
             await asyncio.wait([before])
         self._running, self._next = self._next, None  # who asks from now on waits for the next one
-        return await run_sync(self._read)
-
-    def _read(self) -> Versions:
-        with self._store.read() as transaction:
-            return transaction.versions()
+        return await run_sync(self._store.versions)

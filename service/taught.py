@@ -121,15 +121,19 @@ class TaughtCache:
         self._held: Taught | None = None
         self._lock = Lock()
 
+    def held(self, version: int) -> Taught | None:
+        """What was taught as of this version, if it is at hand."""
+        held = self._held
+        return held if held is not None and held.version == version else None
+
     def of(self, transaction: Transaction, version: int) -> Taught:
         """What was taught, as the transaction sees it, which sees this version of it."""
-        held = self._held
-        if held is not None and held.version == version:
-            return held
+        if (found := self.held(version)) is not None:
+            return found
         with self._lock:
-            held = Taught.of(version, transaction.templates.every())
-            self._held = held
-            return held
+            found = Taught.of(version, transaction.templates.every())
+            self._held = found
+            return found
 
 
 def read_template(stored: StoredTemplate) -> Template:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from anyio.to_thread import run_sync
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Response
 
 from models.logic import to_text as formula_text
 from service.http.dependencies import BODY, GROUNDING, ServicesDep, refusals
@@ -22,7 +23,9 @@ from service.http.schemas import (
 )
 from service.http.views import answers_in, bindings_out, location, query_in, query_out, template_out, translated_out
 from service.lessons import Learned, Lesson, learn_template
-from service.pipeline import ground, translate
+from service.pipeline import Translated, ground, translate
+from service.questions import Answer
+from service.services import Services
 
 router = APIRouter(tags=["language"])
 
@@ -32,23 +35,15 @@ router = APIRouter(tags=["language"])
     operation_id="translate",
     responses=refusals(*BODY, "unknown-environment", "invalid-state", "text-too-long", "wrong-answer"),
 )
-async def post_translate(body: TranslateRequest, services: ServicesDep, request: Request) -> TranslateResponse:
+async def post_translate(body: TranslateRequest, services: ServicesDep) -> TranslateResponse:
     """Translate an English command into a contextual query and, in an environment, into grounded LTL."""
+    _, answer = await translation(services, body)
+    return answer
 
-    def translated() -> TranslateResponse:
-        found = translate(
-            services,
-            body.text,
-            environment=body.environment,
-            state=body.state,
-            translator=body.translator,
-            candidates=body.candidates,
-            answers=answers_in(body.answers),
-        )
-        request.state.translated_under = found.versions  # for `service.http.shortcut`
-        return translated_out(found)
 
-    return await services.in_turn(translated)
+async def translation(services: Services, asked: TranslateRequest) -> tuple[Translated, TranslateResponse]:
+    """What `/translate` finds, and what it answers."""
+    return await services.in_turn(partial(_translation, services, asked, asked.text, answers_in(asked.answers)))
 
 
 @router.post(
@@ -59,22 +54,32 @@ async def post_translate(body: TranslateRequest, services: ServicesDep, request:
 async def post_translate_batch(body: BatchRequest, services: ServicesDep) -> BatchResponse:
     """Translate several commands."""
 
-    def translated(index: int, text: str) -> TranslateResponse:
-        return translated_out(
-            translate(
-                services,
-                text,
-                environment=body.environment,
-                state=body.state,
-                translator=body.translator,
-                candidates=body.candidates,
-                pointer=f"/texts/{index}",
-            )
-        )
-
     # Each waits for its turn, so that nobody waits for a whole batch.
-    items = [await services.in_turn(partial(translated, index, text)) for index, text in enumerate(body.texts)]
+    items = []
+    for index, text in enumerate(body.texts):
+        each = partial(_translation, services, body, text, pointer=f"/texts/{index}")
+        items.append((await services.in_turn(each))[1])
     return BatchResponse(items=items)
+
+
+def _translation(
+    services: Services,
+    asked: TranslateRequest | BatchRequest,
+    text: str,
+    answers: Sequence[Answer] = (),
+    pointer: str = "/text",
+) -> tuple[Translated, TranslateResponse]:
+    found = translate(
+        services,
+        text,
+        environment=asked.environment,
+        state=asked.state,
+        translator=asked.translator,
+        candidates=asked.candidates,
+        answers=answers,
+        pointer=pointer,
+    )
+    return found, translated_out(found)
 
 
 @router.post(

@@ -1,4 +1,4 @@
-"""A short way for what is asked most: the step of a policy at hand, and a translation that was given before.
+"""A short way for what is asked most: the step of a policy at hand, and translations.
 
 The routes are the contract. What is answered here has the bytes that they give, without the way through the framework;
 whatever is not quite plain, errors first of all, goes on to them. A translation is a function of the request, of what
@@ -8,19 +8,19 @@ no process has changed any, and the first request after a change is answered by 
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import Any
 
 from pydantic import ValidationError
 from sqlalchemy.exc import SQLAlchemyError
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from models.errors import CqltlError
 from service.cache import ByteCache
+from service.http.language import translation
 from service.http.limits import ReadBody
 from service.http.policies import step_out
-from service.http.schemas import StepRequest
+from service.http.schemas import StepRequest, TranslateRequest
 from service.services import Services
 from service.store import Versions
 
@@ -56,7 +56,7 @@ class Shortcut:
     """ASGI middleware, the innermost; it keeps up to `most` bytes of translations."""
 
     def __init__(self, app: ASGIApp, *, most: int) -> None:
-        self._app, self._most = app, most
+        self._app = app
         self._kept: ByteCache[bytes, _Kept] = ByteCache(most)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -68,7 +68,7 @@ class Shortcut:
             return
         path: str = scope["path"]
         services: Services = scope["state"]["services"]
-        if path == _TRANSLATE and self._most:
+        if path == _TRANSLATE:
             await self._translate(services, body, scope, receive, send)
         elif (
             path.startswith(_POLICIES)
@@ -85,22 +85,16 @@ class Shortcut:
             services.metrics.translated(kept.translator, kept.outcome, kept.confidence)
             await _answer(scope, send, "translate", kept.answer)
             return
-        status = 0
-
-        async def keeping(message: Message) -> None:
-            nonlocal status
-            if message["type"] == "http.response.start":
-                status = message["status"]
-            elif status == 200 and message["type"] == "http.response.body" and not message.get("more_body", False):
-                self._keep(body, scope["state"]["translated_under"], message["body"])
-            await send(message)
-
-        await self._app(scope, receive, keeping)
-
-    def _keep(self, body: ReadBody, versions: Versions, answer: bytes) -> None:
-        said = json.loads(answer)
-        kept = _Kept(versions, answer, body.value.get("translator", "default"), said["outcome"], said["confidence"])
+        try:
+            asked = TranslateRequest.model_validate(body.value)
+            found, said = await translation(services, asked)
+        except (ValidationError, CqltlError, SQLAlchemyError):
+            await self._app(scope, receive, send)
+            return
+        answer = said.model_dump_json().encode()
+        kept = _Kept(found.versions, answer, asked.translator, said.outcome, said.confidence)
         self._kept.put(body.data, kept, len(body.data) + len(answer) + OVERHEAD)
+        await _answer(scope, send, "translate", answer)
 
 
 async def _holds(services: Services, kept: _Kept) -> bool:

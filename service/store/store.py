@@ -16,7 +16,7 @@ from service.store.jobs import JobRepository
 from service.store.policies import PolicyRepository
 from service.store.tables import facts
 from service.store.templates import TemplateRepository
-from service.store.versions import Versions, read_versions
+from service.store.versions import Versions, read_versions, read_versions_at_once
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +88,14 @@ class Store:
                 if exclusive:
                     lock_writers(connection)
                 yield Transaction(connection)
+
+    def versions(self) -> Versions:
+        """As `Transaction.versions`, of now; raises SQLAlchemyError."""
+        try:
+            return read_versions_at_once(self._engine)
+        except self._engine.dialect.loaded_dbapi.Error:
+            with self.read() as transaction:  # says what is wrong, if it still is
+                return transaction.versions()
 
     def ping(self) -> None:
         """Raise when the database does not answer or lacks its tables."""

