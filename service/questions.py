@@ -173,8 +173,10 @@ def _either(readings: Sequence[Understanding], taught: Taught, environment: Envi
     for reading in readings[1:]:
         if reading.meaning is not None and (doubtful or reading.confidence >= CLOSE * best.confidence > 0):
             meant.setdefault(reading.meaning.formula, (reading.query, reading.meaning))
+    if any(query is None for query, _ in meant.values()) or (len(meant) < 2 and not doubtful):
+        return None
     says = tuple(meaning.explanation(environment) for _, meaning in meant.values())
-    if any(query is None for query, _ in meant.values()) or (len(set(says)) < 2 and not doubtful):
+    if len(set(says)) < 2 and not doubtful:
         return None
     choices = tuple(str(query) for query, _ in meant.values())
     return Question("reading", f"do you mean: {'; or: '.join(says)}?", choices, says)

@@ -8,7 +8,7 @@ included, so no formula can overflow the stack of a thread that is already deep 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeVar
@@ -290,9 +290,14 @@ def map_atoms(formula: Formula, replace: Callable[[Atom], Formula]) -> Formula:
     return fold(formula, combine)
 
 
-def substitute(formula: Formula, terms: dict[Term, Term]) -> Formula:
+def substitute(formula: Formula, terms: Mapping[Term, Term]) -> Formula:
     """The formula with every term found in `terms` replaced, simultaneously: `{a: b, b: a}` swaps."""
-    return map_atoms(formula, lambda atom: Atom(atom.function, tuple(terms.get(term, term) for term in atom.arguments)))
+    return map_atoms(formula, lambda atom: with_terms(atom, terms))
+
+
+def with_terms(atom: Atom, terms: Mapping[Term, Term]) -> Atom:
+    """`substitute` for one atom."""
+    return Atom(atom.function, tuple(terms.get(term, term) for term in atom.arguments))
 
 
 _Symbol = Atom | Constant | tuple[Op, int]

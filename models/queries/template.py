@@ -186,7 +186,7 @@ def _filled(formula: Formula, environment: Environment, bindings: Sequence[Bindi
 
     def chosen(left: Sequence[Binding], terms: dict[Term, Term]) -> Formula:
         if not left:
-            return resolve(substitute(formula, terms), environment)
+            return resolve(formula, environment, terms)
         binding, *later = left
         names = (Name(distinct_name(candidate.symbol, environment)) for candidate in binding.candidates)
         formulas = [chosen(later, {**terms, Parameter(binding.position): name}) for name in names]
@@ -237,17 +237,17 @@ def _describing(
     """What the template says of an argument: "red toy" for `$1` of `colored($1, $2)` in `pickup_colored(toy, red)`;
     just the argument when it says nothing.
     """
-    positions = {
-        other.position - 1
-        for atom in _demanded(template.formula)
-        if Parameter(index + 1) in atom.arguments
-        for other in atom.arguments
-        if isinstance(other, Parameter) and _are_values(kinds[other.position - 1], environment)
-    }
-    others = sorted(positions - {index})
+    values_at = {place for place, accepted in enumerate(kinds) if place != index and _are_values(accepted, environment)}
+    others = sorted(values_at & _beside(template.formula, index)) if values_at else []
     values = [query.arguments[position] for position in others]
     types = frozenset[str]().union(*(kinds[position] for position in others))
     return _Description(with_values(query.arguments[index], values) if values else query.arguments[index], types)
+
+
+def _beside(formula: Formula, index: int) -> set[int]:
+    """The places of the parameters that stand in an atom beside the one at a place, where the atom is demanded."""
+    beside = (atom.arguments for atom in _demanded(formula) if Parameter(index + 1) in atom.arguments)
+    return {term.position - 1 for terms in beside for term in terms if isinstance(term, Parameter)}
 
 
 def _demanded(formula: Formula) -> Iterator[Atom]:

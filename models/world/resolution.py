@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from models.logic.formula import Atom, Formula, Name, Parameter, atoms, map_atoms
+from models.logic.formula import Atom, Formula, Name, Parameter, Term, atoms, map_atoms, with_terms
 from models.world.compound import readings, unknown_part
 from models.world.domain import Function, FunctionParameter
 from models.world.errors import TypeMismatchError, UnknownObjectError, UnknownPropositionError
@@ -14,14 +16,15 @@ from models.world.vocabulary import Symbol, Vocabulary
 if TYPE_CHECKING:
     from models.world.environment import Environment
 
+_NO_TERMS: Mapping[Term, Term] = MappingProxyType({})
 
-def resolve(formula: Formula, environment: Environment) -> Formula:
-    """The formula with compound names read back and every name canonical: each atom is a function of the
-    environment applied to its own names; Parameter terms are left alone.
+def resolve(formula: Formula, environment: Environment, terms: Mapping[Term, Term] = _NO_TERMS) -> Formula:
+    """The formula with terms replaced as by `substitute`, compound names read back, and every name canonical: each atom
+    is a function of the environment applied to its own names; Parameter terms that are left are left alone.
 
     Raises UnknownPropositionError, UnknownObjectError or TypeMismatchError.
     """
-    resolved = {atom: resolve_atom(atom, environment.vocabulary) for atom in atoms(formula)}
+    resolved = {atom: resolve_atom(with_terms(atom, terms), environment.vocabulary) for atom in atoms(formula)}
     return map_atoms(formula, resolved.__getitem__)
 
 

@@ -61,8 +61,9 @@ class _Read:
             counts = np.diff([*begins, len(owners)])[:, None].astype(np.float32)
             words = slice(0, len(begins))  # each has a piece, but for those beyond the last
             for number, part in enumerate(states if begins else ()):
-                total = np.add.reduceat(part[row, 1 : len(owners) + 1], begins, axis=0)
-                found[row, words, number * size : (number + 1) * size] = total / counts
+                pieces = part[row, 1 : len(owners) + 1]
+                means = pieces if len(begins) == len(owners) else np.add.reduceat(pieces, begins, axis=0) / counts
+                found[row, words, number * size : (number + 1) * size] = means
         return found
 
 

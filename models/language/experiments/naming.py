@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from models.errors import CqltlError
 from models.language.experiments.answer import Answer
-from models.logic import Name, Parameter, Term, substitute
+from models.logic import Name, Parameter, Term
 from models.queries import AmbiguousGroundingError, ArityMismatchError, ContextualQuery, Template
 from models.world import Environment, Symbol, UnknownObjectError, distinct_name, resolve
 
@@ -28,7 +28,7 @@ def answer_by_name(template: Template, query: ContextualQuery, environment: Envi
             return Answer(query, refusal=(AmbiguousGroundingError if named else UnknownObjectError).slug)
         terms[Parameter(position)] = Name(distinct_name(named[0], environment))
     try:
-        return Answer(query, resolve(substitute(template.formula, terms), environment))
+        return Answer(query, resolve(template.formula, environment, terms))
     except CqltlError as error:
         return Answer(query, refusal=error.slug)
 
