@@ -43,6 +43,10 @@ STRANGE = 0.1
 """Factor for each thing of another kind than a task was taught with, where another task was taught with that kind."""
 SENSELESS = 1e-4
 """Weight of one that means nothing in the environment. Not 0: people do ask for what is not there."""
+IMPROBABLE = 0.002
+"""Part of the probability of a reading that makes full sense, below which another one is not looked at: whatever sense
+it makes, it stays so much less probable.
+"""
 
 R = TypeVar("R", "Reading", "FormulaReading")
 
@@ -104,21 +108,47 @@ class FormulaReading:
 
 
 def rank(translations: Sequence[Translation], scene: Scene) -> tuple[Reading, ...]:
-    """The readings of a text, grounded where it is said, the most probable there first.
+    """The readings of a text, grounded where it is said, the most probable there first; without those that are
+    `IMPROBABLE` beside one that makes full sense.
 
     Readings of a task without a template are left out, and none is given when one of them is the most probable: what
     says a task that is not known is not taken for another.
     """
-    readings = _ordered(read(translations, scene))
+    known = [translation for translation in translations if scene.knows(translation.query)]
+    readings = _ordered(_probable(known, scene), sum(translation.confidence for translation in known))
     left_out = max((t.confidence for t in translations if not scene.knows(t.query)), default=0.0)
     return readings if readings and readings[0].confidence >= left_out else ()
 
 
 def read(translations: Iterable[Translation], scene: Scene) -> tuple[Reading, ...]:
-    """As `rank`, in the order and with the confidences of the translations."""
+    """As `rank`, in the order and with the confidences of the translations, and all of them."""
     known = [translation for translation in translations if scene.knows(translation.query)]
     named = scene.named() if known else ()
-    readings = [replace(_read(said, scene), unsaid=_unsaid(said.query, named)) for said in known]
+    return _compared([_read(said, scene, named) for said in known], scene)
+
+
+def _probable(translations: Sequence[Translation], scene: Scene) -> tuple[Reading, ...]:
+    """As `read`, without what is `IMPROBABLE`: most of a translator's readings, and grounding them takes longer than
+    the reading that is meant.
+    """
+    if scene.environment is None:
+        return read(translations, scene)
+    named, best = scene.named() if translations else (), 0.0
+    found: dict[int, Reading] = {}
+    for place in sorted(range(len(translations)), key=lambda place: -translations[place].confidence):
+        if translations[place].confidence < IMPROBABLE * best:
+            break
+        found[place] = reading = _read(translations[place], scene, named)
+        if reading.likelihood >= GROUNDED:
+            best = max(best, reading.confidence)
+    readings = _compared([found[place] for place in sorted(found)], scene)
+    if len(found) == len(translations) or any(r.likelihood >= GROUNDED and r.confidence == best for r in readings):
+        return readings
+    return read(translations, scene)  # beside the others, the best is said of strange things
+
+
+def _compared(readings: Sequence[Reading], scene: Scene) -> tuple[Reading, ...]:
+    """With what is strange in each beside the others."""
     strange = strangers([(reading.grounded, reading.confidence) for reading in readings], scene.template_of)
     return tuple(replace(reading, strange=count) for reading, count in zip(readings, strange, strict=True))
 
@@ -127,17 +157,19 @@ def rank_formulas(
     translations: Iterable[tuple[Formula, float]], *, environment: Environment | None
 ) -> tuple[FormulaReading, ...]:
     """As `rank`, for formulas with their probabilities: those that the environment can resolve come first."""
-    return _ordered([_resolve(formula, confidence, environment) for formula, confidence in translations])
+    readings = [_resolve(formula, confidence, environment) for formula, confidence in translations]
+    return _ordered(readings, sum(reading.confidence for reading in readings))
 
 
-def _read(translation: Translation, scene: Scene) -> Reading:
+def _read(translation: Translation, scene: Scene, named: Sequence[tuple[str, ...]]) -> Reading:
     query, confidence = translation.query, translation.confidence
+    unsaid = _unsaid(query, named)
     try:
         scene.check(query)
         grounded = None if scene.environment is None else evaluate_query(query, scene.ground)
     except CqltlError as error:
-        return Reading(query, confidence, None, error, max(1, _senseless(query, scene)))
-    return Reading(query, confidence, grounded)
+        return Reading(query, confidence, None, error, max(1, _senseless(query, scene)), unsaid)
+    return Reading(query, confidence, grounded, unsaid=unsaid)
 
 
 def _unsaid(query: Query, named: Sequence[tuple[str, ...]]) -> int:
@@ -172,9 +204,9 @@ def _resolve(formula: Formula, confidence: float, environment: Environment | Non
         return FormulaReading(formula, confidence, error)
 
 
-def _ordered(readings: Sequence[R]) -> tuple[R, ...]:
-    """By probability in the environment, equally probable ones in their order, together as probable as before."""
+def _ordered(readings: Sequence[R], total: float) -> tuple[R, ...]:
+    """By probability in the environment, equally probable ones in their order, together as probable as all were."""
     weighed = [reading.confidence * reading.likelihood for reading in readings]
-    scale = sum(reading.confidence for reading in readings) / (sum(weighed) or 1.0)
+    scale = total / (sum(weighed) or 1.0)
     ranked = [replace(reading, confidence=w * scale) for reading, w in zip(readings, weighed, strict=True)]
     return tuple(sorted(ranked, key=lambda reading: -reading.confidence))

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _NO_TERMS: Mapping[Term, Term] = MappingProxyType({})
 
+
 def resolve(formula: Formula, environment: Environment, terms: Mapping[Term, Term] = _NO_TERMS) -> Formula:
     """The formula with terms replaced as by `substitute`, compound names read back, and every name canonical: each atom
     is a function of the environment applied to its own names; Parameter terms that are left are left alone.
