@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pydantic import ValidationError
@@ -21,6 +21,9 @@ from service.exchange import add_commands, export, import_environment, read_envi
 from service.keys_command import add_keys_command, keys
 from service.settings import Settings
 from service.store.engine import is_postgresql
+
+if TYPE_CHECKING:
+    from service.client import Client
 
 INTERRUPTED = 130
 """The exit status of what was interrupted, as shells have it."""
@@ -201,7 +204,7 @@ def _doctor(settings: Settings, _options: argparse.Namespace) -> int:
 
 def _request(settings: Settings, options: argparse.Namespace) -> int:
     """Send the command as the request it stands for, and print the answer."""
-    from service.client import UnreachableError, post
+    from service.client import UnreachableError, client
 
     body = {
         name: value
@@ -213,17 +216,25 @@ def _request(settings: Settings, options: argparse.Namespace) -> int:
     if getattr(options, "environment_file", None) is not None:
         body["environment_spec"] = read_environment(options.environment_file)
     try:
-        status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
-        for choice in getattr(options, "answer", []):
-            body["answers"] = [*body.get("answers", []), _answer(choice, answer.get("question"))]
-            status, answer = post(f"/{options.command}", body, server=options.server, settings=settings)
+        with client(options.server, settings) as asking:
+            status, answer = _asked(asking, options, body)
+            if options.command == "plan" and status < 400:
+                return _show(asking, options, body, answer)
     except UnreachableError as error:
         print(error, file=sys.stderr)
         return 1
-    if options.command == "plan" and status < 400:
-        return _show(settings, options, body, answer)
     print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stdout if status < 400 else sys.stderr)
     return 0 if status < 400 else 1
+
+
+def _asked(asking: Client, options: argparse.Namespace, body: dict[str, Any]) -> tuple[int, Any]:
+    """The answer to a request, and to what is asked back."""
+    path = f"/{options.command}"
+    status, answer = asking.ask("POST", path, body)
+    for choice in getattr(options, "answer", []):
+        body["answers"] = [*body.get("answers", []), _answer(choice, answer.get("question"))]
+        status, answer = asking.ask("POST", path, body)
+    return status, answer
 
 
 def _answer(choice: str, question: dict[str, Any] | None) -> dict[str, Any]:
@@ -243,9 +254,8 @@ def _plan_options(options: argparse.Namespace) -> dict[str, Any]:
     return found
 
 
-def _show(settings: Settings, options: argparse.Namespace, body: dict[str, Any], answer: Any) -> int:
+def _show(asking: Client, options: argparse.Namespace, body: dict[str, Any], answer: Any) -> int:
     """Print a plan as JSON, or draw its run; and write the animation if one is asked for."""
-    from service.client import UnreachableError, get
     from service.showing import animate, show, wants_text
 
     text = wants_text(options.format)
@@ -255,11 +265,7 @@ def _show(settings: Settings, options: argparse.Namespace, body: dict[str, Any],
         return 0
     spec = body.get("environment_spec")
     if spec is None:
-        try:
-            _, found = get(f"/environments/{quote(options.environment)}", server=options.server, settings=settings)
-        except UnreachableError as error:
-            print(error, file=sys.stderr)
-            return 1
+        _, found = asking.ask("GET", f"/environments/{quote(options.environment)}")
         spec = found["spec"]
     if text:
         print(show(answer, spec))

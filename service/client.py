@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import time
-from typing import Any
+from collections.abc import Iterator
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, contextmanager
+from typing import Any, Protocol
 
 import httpx
 
@@ -20,38 +22,34 @@ class UnreachableError(Exception):
     """The server does not answer."""
 
 
-def post(path: str, body: dict[str, Any], *, server: str | None, settings: Settings) -> tuple[int, Any]:
-    """POST a JSON body; status and decoded answer. What is made as a job is waited for.
+class Client(Protocol):
+    """Asks for the command line."""
 
-    Raises:
-        UnreachableError: no server answers at that address, or what answers does not speak JSON.
+    def ask(self, method: str, path: str, body: dict[str, Any] | None = None) -> tuple[int, Any]:
+        """Send a JSON body, or nothing; status and decoded answer. What is made as a job is waited for.
+
+        Raises:
+            UnreachableError: no server answers at that address, or what answers does not speak JSON.
+        """
+
+
+@contextmanager
+def client(server: str | None, settings: Settings) -> Iterator[Client]:
+    """A client of a server; without one, of the app within this process, which starts when it is first asked, and stops
+    when the context ends.
     """
-    return _ask("POST", path, body, server, settings)
-
-
-def put(path: str, body: dict[str, Any], *, server: str | None, settings: Settings) -> tuple[int, Any]:
-    """PUT a JSON body; as `post`."""
-    return _ask("PUT", path, body, server, settings)
-
-
-def get(path: str, *, server: str | None, settings: Settings) -> tuple[int, Any]:
-    """GET JSON; status and decoded answer. Raises as `post`."""
-    return _ask("GET", path, None, server, settings)
-
-
-def _ask(
-    method: str, path: str, body: dict[str, Any] | None, server: str | None, settings: Settings
-) -> tuple[int, Any]:
     if server is not None:
-        key = settings.api_key.get_secret_value()
-        status, answer = _send(method, server, path, body, key)
-        return _ended(server, answer, key) if status == 202 else (status, answer)
-    response = asyncio.run(_ask_here(method, path, body, settings))
-    return response.status_code, response.json()
+        yield _Remote(server, settings.api_key.get_secret_value())
+        return
+    here = _Here(settings)
+    try:
+        yield here
+    finally:
+        here.close()
 
 
 def document(*, server: str | None, settings: Settings) -> dict[str, Any]:
-    """The OpenAPI document; raises as `post`."""
+    """The OpenAPI document; raises `UnreachableError`."""
     if server is None:
         from service.app import create_app
 
@@ -72,19 +70,48 @@ def _send(method: str, server: str, path: str, body: dict[str, Any] | None, key:
         raise UnreachableError(f"{url}: {error}") from error
 
 
-def _ended(server: str, job: dict[str, Any], key: str) -> tuple[int, Any]:
-    """What became of a job, as if its request had waited."""
-    while job["state"] in ("queued", "running"):
-        time.sleep(POLL_S)
-        status, job = _send("GET", server, job["url"], None, key)
-        if status != 200:
-            return status, job
-    if job["state"] == "succeeded":
-        return 200, job["plan"]
-    return (400, job["error"]) if job["state"] == "failed" else (400, job)
+class _Remote:
+    def __init__(self, server: str, key: str) -> None:
+        self._server, self._key = server, key
+
+    def ask(self, method: str, path: str, body: dict[str, Any] | None = None) -> tuple[int, Any]:
+        status, answer = _send(method, self._server, path, body, self._key)
+        return self._ended(answer) if status == 202 else (status, answer)
+
+    def _ended(self, job: dict[str, Any]) -> tuple[int, Any]:
+        """What became of a job, as if its request had waited."""
+        while job["state"] in ("queued", "running"):
+            time.sleep(POLL_S)
+            status, job = _send("GET", self._server, job["url"], None, self._key)
+            if status != 200:
+                return status, job
+        if job["state"] == "succeeded":
+            return 200, job["plan"]
+        return (400, job["error"]) if job["state"] == "failed" else (400, job)
 
 
-async def _ask_here(method: str, path: str, body: dict[str, Any] | None, settings: Settings) -> httpx.Response:
+class _Here:
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._loop = asyncio.Runner()
+        self._app = AsyncExitStack()
+        self._client: httpx.AsyncClient | None = None
+
+    def ask(self, method: str, path: str, body: dict[str, Any] | None = None) -> tuple[int, Any]:
+        response = self._loop.run(self._asked(method, path, body))
+        return response.status_code, response.json()
+
+    def close(self) -> None:
+        self._loop.run(self._app.aclose())
+        self._loop.close()
+
+    async def _asked(self, method: str, path: str, body: dict[str, Any] | None) -> httpx.Response:
+        if self._client is None:
+            self._client = await self._app.enter_async_context(_started(self._settings))
+        return await self._client.request(method, path, json=body, timeout=TIMEOUT_S)
+
+
+def _started(settings: Settings) -> AbstractAsyncContextManager[httpx.AsyncClient]:
     from service.forkserver import launch
     from service.store.migrate import migrate
 
@@ -95,5 +122,4 @@ async def _ask_here(method: str, path: str, body: dict[str, Any] | None, setting
 
     # Nobody could fetch a job from a process that has ended.
     patient = settings.model_copy(update=dict.fromkeys(("wait_s", "max_wait_s"), settings.job_deadline_s))
-    async with running(create_app(patient, warm=False)) as client:
-        return await client.request(method, path, json=body, timeout=TIMEOUT_S)
+    return running(create_app(patient, warm=False))

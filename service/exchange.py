@@ -56,14 +56,15 @@ def add_commands(commands: Any) -> None:
 
 def export(settings: Settings, options: argparse.Namespace, data: Mapping[str, Any] | None) -> int:
     """Write an environment (`data`, or the stored one that is named); the exit status."""
-    from service.client import UnreachableError, get
+    from service.client import UnreachableError, client
 
     if options.product and (options.ltl is None or options.format == "prism"):
         print("--product needs --ltl, and is written in DRN", file=sys.stderr)
         return 2
     try:
         if data is None:
-            status, found = get(f"/environments/{options.environment}", server=options.server, settings=settings)
+            with client(options.server, settings) as asking:
+                status, found = asking.ask("GET", f"/environments/{options.environment}")
             if status != 200:
                 print(found.get("detail", found), file=sys.stderr)
                 return 1
@@ -98,7 +99,7 @@ def _exported(data: Mapping[str, Any], options: argparse.Namespace) -> str:
 
 def import_environment(settings: Settings, options: argparse.Namespace) -> int:
     """Read an environment or a PRISM model and store it, or write it as JSON; the exit status."""
-    from service.client import UnreachableError, post, put
+    from service.client import UnreachableError, client
 
     model = options.file.suffix not in ENVIRONMENT_FILES
     if model and options.name is None:
@@ -113,11 +114,11 @@ def import_environment(settings: Settings, options: argparse.Namespace) -> int:
             options.output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
             return 0
         name = data.get("name") if isinstance(data, dict) else None
+        method, path = "POST", "/environments"
         if options.replace and isinstance(name, str):
-            path = f"/environments/{quote(name, safe='')}"
-            status, answer = put(path, data, server=options.server, settings=settings)
-        else:
-            status, answer = post("/environments", data, server=options.server, settings=settings)
+            method, path = "PUT", f"{path}/{quote(name, safe='')}"
+        with client(options.server, settings) as asking:
+            status, answer = asking.ask(method, path, data)
     except (CqltlError, UnreachableError) as error:
         print(getattr(error, "detail", error), file=sys.stderr)
         if caret := getattr(error, "caret", ""):

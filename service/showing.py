@@ -21,7 +21,7 @@ def show(answer: Mapping[str, Any], spec: Mapping[str, Any]) -> str:
     probability, steps = answer["probability"], answer["trajectory"]
     lines = [answer["ltl"], answer["explanation"], "", f"{answer['outcome']}: {_likely(probability)}"]
     if answer["outcome"] != "solved":
-        return "\n".join(lines)
+        return "\n".join([*lines, *(f"from here: {why['explanation']}" for why in answer.get("obstacles", []))])
     if answer["expected_steps"] is not None:
         lines[-1] += f", expected steps {answer['expected_steps']:.6g}"
     lines += ["", "at first:", to_text(environment, steps[0]["state"]), ""]

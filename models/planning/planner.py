@@ -17,6 +17,7 @@ import numpy as np
 from models.logic import Automaton, Formula, Op, Unary, translate
 from models.planning.finding import Hopeless
 from models.planning.narrowing import first_part, narrowed
+from models.planning.obstacles import obstacles
 from models.planning.options import Options, Progress, no_progress
 from models.planning.policy import Policy
 from models.planning.trajectory import Trajectory, most_probable_run
@@ -39,14 +40,15 @@ class Plan:
     """The answer.
 
     The goal is the formula, or its negation where the objective is the least probability. "unsatisfiable": no word at
-    all satisfies the goal. "unreachable": this world, from the initial state, cannot. Both have neither policy nor
-    trajectory. "solved": the policy satisfies the goal with probability at least `lower`, and no policy does with more
-    than `upper`; where the goal is the negation both are turned round, so that they bound the least probability of the
-    formula. `expected_steps` are the policy's steps (what they cost, where actions have costs) until the outcome is
-    decided: the goal holds whatever follows, or will if the policy goes on for ever, or cannot any more. They are the
-    fewest among policies of that probability, and lie between `expected_steps` and `expected_steps_upper`, which is
-    infinite if iteration was cut short. `round_steps` bounds the expected steps of a round of what then has to be done
-    for ever; None where there is nothing of the kind, or the policy's runs are too many to see.
+    all satisfies the goal. "unreachable": this world, from the initial state, cannot; `obstacles` are why, if that is
+    known (`models.planning.obstacles`). Both have neither policy nor trajectory. "solved": the policy satisfies the
+    goal with probability at least `lower`, and no policy does with more than `upper`; where the goal is the negation
+    both are turned round, so that they bound the least probability of the formula. `expected_steps` are the policy's
+    steps (what they cost, where actions have costs) until the outcome is decided: the goal holds whatever follows, or
+    will if the policy goes on for ever, or cannot any more. They are the fewest among policies of that probability, and
+    lie between `expected_steps` and `expected_steps_upper`, which is infinite if iteration was cut short. `round_steps`
+    bounds the expected steps of a round of what then has to be done for ever; None where there is nothing of the kind,
+    or the policy's runs are too many to see.
     """
 
     outcome: Outcome
@@ -60,6 +62,7 @@ class Plan:
     policy: Policy | None
     trajectory: Trajectory | None
     sizes: Sizes
+    obstacles: tuple[Formula, ...] = ()
 
 
 def plan(
@@ -95,7 +98,7 @@ def _plan(world: World, formula: Formula, start: int, settings: Options, progres
         return _hopeless("unsatisfiable", first_part(world, automaton, start, settings), automaton, start)
     found = narrowed(world, automaton, start, options=settings, progress=progress)
     if isinstance(found, Hopeless):
-        return _hopeless("unreachable", found.part, automaton, start)
+        return _hopeless("unreachable", found.part, automaton, start, obstacles(found.part, automaton, start, settings))
     return Plan(
         outcome="solved",
         lower=found.solution.lower,
@@ -123,7 +126,7 @@ def _sizes(world: World, automaton: Automaton) -> Sizes:
     return Sizes(world.size, world.size * automaton.states, automaton.states)
 
 
-def _hopeless(outcome: Outcome, world: World, automaton: Automaton, start: int) -> Plan:
+def _hopeless(outcome: Outcome, world: World, automaton: Automaton, start: int, why: tuple[Formula, ...] = ()) -> Plan:
     """Probability 0, and nothing to do about it."""
     return Plan(
         outcome=outcome,
@@ -137,4 +140,5 @@ def _hopeless(outcome: Outcome, world: World, automaton: Automaton, start: int) 
         policy=None,
         trajectory=None,
         sizes=_sizes(world, automaton),
+        obstacles=why,
     )

@@ -15,6 +15,7 @@ from service.http.schemas import (
     JobProgress,
     JobTiming,
     ModelSize,
+    Obstacle,
     PlanResponse,
     PolicySummary,
     RoundSteps,
@@ -55,6 +56,7 @@ def plan_out(plan: Planned, seconds: float) -> PlanResponse:
     return PlanResponse(
         id=plan.policy_id,
         outcome=answer.outcome,
+        obstacles=[Obstacle(ltl=ltl, explanation=said) for ltl, said in answer.obstacles],
         probability=Bounds(lower=answer.lower, upper=answer.upper),
         expected_steps=answer.expected_steps,
         expected_steps_upper=_finite(answer.expected_steps_upper),

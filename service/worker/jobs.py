@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import resource
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from models.logic import Formula, PropertyClass, classify, equivalent, parse
+from models.logic import Formula, PropertyClass, classify, equivalent, parse, to_text
 from models.queries import Template, review
-from models.world import State, World
+from models.world import State, World, explain
 from service.worker.child import board
 from service.worker.progress import Meter
 from service.worker.worlds import read_environment, read_world
@@ -82,7 +83,8 @@ class PlanAnswer:
     states: int
     product_states: int
     automaton_states: int
-    sweeps: int = 0  # of value iteration; not known of answers that older versions stored
+    sweeps: int = 0  # of value iteration; this and what follows is not known of answers that older versions stored
+    obstacles: tuple[tuple[str, str], ...] = ()  # why the goal is unreachable: formulas, each in English too
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +150,7 @@ def run_plan(job: PlanJob) -> PlanAnswer:
         product_states=found.sizes.product_states,
         automaton_states=found.sizes.automaton_states,
         sweeps=meter.sweeps,
+        obstacles=_explained(found.obstacles, job.environment),
     )
 
 
@@ -164,6 +167,10 @@ def run_classification(formula: Formula) -> PropertyClass:
 def _most_bytes() -> int:
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     return MOST_BYTES if limit == resource.RLIM_INFINITY else min(MOST_BYTES, limit)
+
+
+def _explained(formulas: Sequence[Formula], environment: str) -> tuple[tuple[str, str], ...]:
+    return tuple((to_text(formula), explain(formula, read_environment(environment))) for formula in formulas)
 
 
 def _steps(world: World, trajectory: Trajectory | None) -> tuple[tuple[NamedState, int, str | None], ...]:

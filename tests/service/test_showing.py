@@ -33,6 +33,14 @@ def test_what_cannot_be_done_is_said(client: httpx.Client, tmp_path: Path) -> No
     assert not (tmp_path / "run.gif").exists()
 
 
+def test_why_it_cannot_be_done_is_said(client: httpx.Client, tmp_path: Path) -> None:
+    server = ["--server", str(client.base_url)]
+    arguments = ["plan", "--ltl", "F (holding(box) & holding(bag))", "--environment", "toys", *server]
+    shown = run_here(*arguments, "--format", "text", data=tmp_path)
+    assert shown.returncode == 0
+    assert "unreachable: probability 0\nfrom here: never both the robot is holding the box and" in shown.stdout
+
+
 def test_a_run_for_ever_says_where_it_goes_round(client: httpx.Client, tmp_path: Path) -> None:
     server = ["--server", str(client.base_url)]
     formula = "G F at(robot, kitchen) & G F at(robot, bathroom)"

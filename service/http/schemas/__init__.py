@@ -32,6 +32,7 @@ from service.http.schemas.language import (
 from service.http.schemas.plans import (
     Bounds,
     ModelSize,
+    Obstacle,
     PlanOptions,
     PlanRequest,
     PlanResponse,
@@ -90,6 +91,7 @@ __all__ = [
     "KindOut",
     "LearnRequest",
     "ModelSize",
+    "Obstacle",
     "PairIn",
     "PairOut",
     "ParameterOut",

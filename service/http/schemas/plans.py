@@ -137,6 +137,13 @@ class Timing(BaseModel):
     total_s: float
 
 
+class Obstacle(BaseModel):
+    """What holds in every state that can be reached, and leaves no way to the goal."""
+
+    ltl: str
+    explanation: str
+
+
 class PlanResponse(BaseModel):
     """A plan."""
 
@@ -144,6 +151,9 @@ class PlanResponse(BaseModel):
     outcome: Literal["solved", "unsatisfiable", "unreachable"] = Field(
         description="`unsatisfiable`: no run at all satisfies the goal; `unreachable`: none of this world does. The "
         "goal is the formula, or its negation where the objective is `min`."
+    )
+    obstacles: list[Obstacle] = Field(
+        description="Why the goal is unreachable, where that is known: each alone makes it so, or else all together do."
     )
     objective: Literal["max", "min"]
     confidence: float | None = Field(

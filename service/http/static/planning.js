@@ -72,7 +72,7 @@ export function showPromise(found) {
   show(byId("promise-empty"), false);
   const { lower, upper } = found.probability;
   const lines = [];
-  if (found.outcome !== "solved") lines.push(["Outcome", WORDS[found.outcome]]);
+  if (found.outcome !== "solved") lines.push(["Outcome", WORDS[found.outcome], found.obstacles.map((why) => why.explanation).join("; ")]);
   const goal = found.objective === "min" ? "at least" : "at most";
   lines.push(["Probability", percent(lower, upper), upper - lower < 1e-9 ? "exactly" : `between ${exact(lower)} and ${exact(upper)}; no policy does better than ${goal === "at most" ? exact(upper) : exact(lower)}`]);
   if (found.expected_steps != null && !(found.expected_steps === 0 && found.round_steps)) {

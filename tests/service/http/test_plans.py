@@ -120,6 +120,16 @@ def test_what_cannot_be_done_is_an_outcome(client: httpx.Client, ltl: str, objec
     assert answer["trajectory"] == []
 
 
+def test_why_it_cannot_be_done_here(client: httpx.Client) -> None:
+    """The robot has one hand; and what the formula contradicts itself is no fault of the world."""
+    both = plan(client, ltl="F (holding(sphere) & holding(cylinder))", environment="toys")
+    (why,) = both["obstacles"]
+    assert why["ltl"] == "G !(holding(sphere) & holding(cylinder))"
+    assert why["explanation"].startswith("never both the robot is holding the sphere and")
+    assert plan(client, ltl="F a & G !a", environment_spec=TINY)["obstacles"] == []
+    assert plan(client, ltl="F a", environment_spec=TINY)["obstacles"] == []
+
+
 def test_what_has_to_be_done_again_and_again(client: httpx.Client) -> None:
     """Kitchen and bathroom are three rooms apart, so a round is six steps, and the robot begins at one end."""
     patrol = "G F at(robot, kitchen) & G F at(robot, bathroom) & G !holding(sphere)"
