@@ -1,6 +1,6 @@
-"""What commands say and queries cannot: how often, how long, and under which condition.
+"""What commands say and queries cannot: how often, how long, at what time, and under which condition.
 
-"Visit the museum twice", "stay there for ten minutes", "close the door if it is raining": a translator that understands
+"Visit the museum twice", "stay there", "be there by noon", "close the door when it rains": a translator that hears
 the rest must not pass over it. Politeness is no condition: "if it is no trouble".
 """
 
@@ -14,9 +14,34 @@ from models.queries import Composition, Operator, Query
 
 _NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|twelve|twenty|thirty|several|a few|a couple of|\d+)"
 _UNIT = r"(?:seconds?|minutes?|hours?|days?|weeks?)"
-_MEASURE = re.compile(rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_NUMBER} {_UNIT})\b")
+_MEASURE = re.compile(
+    rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_NUMBER} {_UNIT}"
+    r"|(?:stay|remain|wait) (?:there|here))\b"
+)
+_DAY = r"(?:(?:mon|tues|wednes|thurs|fri|satur|sun)day|weekend)"
+_MEAL = r"(?:breakfast|lunch|dinner|supper)"
+_CLOCK = rf"(?:noon|midnight|dawn|dusk|sunrise|sunset|{_MEAL}|{_NUMBER}(?: \d\d)? ?(?:am|pm|o'?clock))"
+_EACH = r"(?:every|each) (?:other |second )?(?:morning|afternoon|evening|night|minute|hour|day|week)"
+_TIME = re.compile(
+    rf"\b(?:(?:at|by|before|after|until|till|around) {_CLOCK}|tomorrow(?: morning| afternoon| evening| night)?"
+    rf"|(?:on|every|each|next) {_DAY}|{_EACH})\b"
+)
+_REASONS = frozenset({"so", "because", "since", "as"})
+"""Words that stand between a command and its reason, which may have a time of its own: "dinner is at noon, so ..."."""
 _IF = frozenset({"if", "unless"})
 _IS = frozenset({"is", "are", "was", "were", "isn't", "aren't", "has", "have", "hasn't", "gets", "becomes", "rains"})
+_ALWAYS = (("whenever",), ("every", "time"), ("each", "time"))
+"""What begins that may come true again and again; no query says what is to be done each time."""
+_WHEN = (("when",), ("as", "soon", "as"), *_ALWAYS)
+"""What begins conditions that may come true later."""
+_OWN = frozenset(
+    {"there", "you", "you're", "you've", "your", "that", "this", "these", "those", "all", "everything", "both"}
+)
+"""What a command says to do first is about: "when you are there", "when that is done"."""
+_READY = frozenset({"done", "finished", "over", "ready", "complete", "possible", "convenient", "free", "able", "suits"})
+"""How things are when something that was said to be done has been, or when it suits."""
+_CHANCE = _READY | {"can", "like", "want", "wish", "please", "time", "chance", "moment", "minute"}
+"""Likewise: "whenever you have a minute"."""
 _ASKING = frozenset({"see", "ask", "check", "know", "wonder", "tell", "as"})
 """Words after which "if" states no condition: "to see if it is raining"."""
 _LONGEST_SUBJECT = 4
@@ -30,8 +55,8 @@ _ELSE = frozenset({"else", "otherwise", "instead", "or"})
 
 
 def unsayable(text: str, query: Query) -> str | None:
-    """The first words of a command that say how often, how long or under which condition, unless they are in a name
-    that the query speaks of; None without any.
+    """The first words of a command that say how often, how long, at what time or under which condition, unless they are
+    in a name that the query speaks of; None without any.
 
     Raises:
         TextTooLongError: the text is beyond the limits of a command.
@@ -39,17 +64,57 @@ def unsayable(text: str, query: Query) -> str | None:
     names = [f" {phrase} " for _, task in query.tasks for phrase in task.arguments]
     measures = [found[0] for found in _MEASURE.finditer(" ".join(words(text)))]
     chosen = isinstance(query, Composition) and query.operator is Operator.OR and not _ELSE.isdisjoint(words(text))
-    found = (*measures, *(() if chosen else _conditions(marked_words(text))))
+    marked = marked_words(text)
+    found = (*measures, *_times(marked, query), *(() if chosen else _conditions(marked)), *_occasions(marked, query))
     return next((said for said in found if not any(f" {said} " in name for name in names)), None)
 
 
 def _conditions(said: tuple[str, ...]) -> Iterator[str]:
     for at, word in enumerate(said):
         if word in _IF and (at == 0 or said[at - 1] not in _ASKING):
-            marks = (place for place in range(at, len(said)) if is_mark(said[place]))
-            clause = said[at + 1 : min(next(marks, len(said)), at + _LONGEST_CONDITION)]
+            clause = _clause(said, at + 1)
             if _is_condition([part for each in clause for part in each.replace("it's", "it is").split()]):
                 yield " ".join((word, *clause))
+
+
+def _times(said: tuple[str, ...], query: Query) -> Iterator[str]:
+    """Times that stand alone, or in a clause that speaks of what the query does."""
+    spoken = _spoken(query)
+    clause: list[str] = []
+    for word in (*said, "."):
+        if word == ":":  # of a time
+            continue
+        if not is_mark(word) and word not in _REASONS:
+            clause.append(word)
+            continue
+        found = _TIME.search(" ".join(clause))
+        if found and (found[0].split() == clause or not spoken.isdisjoint(clause)):
+            yield found[0]
+        clause = []
+
+
+def _spoken(query: Query) -> set[str]:
+    """The words of the arguments of a query."""
+    return {word for _, task in query.tasks for phrase in task.arguments for word in phrase.split()}
+
+
+def _occasions(said: tuple[str, ...], query: Query) -> Iterator[str]:
+    """Clauses that say when, by what neither the robot does nor the query speaks of: "when the bell rings"."""
+    spoken = _spoken(query)
+    for at in range(len(said)):
+        for opening in _WHEN:
+            if said[at : at + len(opening)] != opening:
+                continue
+            clause = _clause(said, at + len(opening))
+            again = opening in _ALWAYS and _CHANCE.isdisjoint(clause)
+            if clause and (again or (clause[0] not in _OWN and (_READY | spoken).isdisjoint(clause))):
+                yield " ".join((*opening, *clause))
+
+
+def _clause(said: tuple[str, ...], begin: int) -> tuple[str, ...]:
+    """The words up to a mark, so many at most."""
+    marks = (place for place in range(begin, len(said)) if is_mark(said[place]))
+    return said[begin : min(next(marks, len(said)), begin + _LONGEST_CONDITION - 1)]
 
 
 def _is_condition(clause: list[str]) -> bool:
