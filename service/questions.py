@@ -59,8 +59,9 @@ def question_of(
     """What has to be asked before the readings of a text, best first, can be acted on; None when nothing is open.
 
     Asked is, in this order: which of the things that a phrase fits, or which thing is called by an unknown word where
-    all other arguments are known; whether the best is meant where the text says more than a query can; and which of the
-    readings is meant, when another is nearly as probable or the best is improbable itself.
+    all other arguments are known; whether the best is meant where the text says something else that means nothing here,
+    or more than a query can; and which of the readings is meant, when another is nearly as probable or the best is
+    improbable itself.
     """
     if not readings or environment is None:
         return None
@@ -147,18 +148,26 @@ def _called(
 
 
 def _confirmation(text: str, best: Understanding, taught: Taught, environment: Environment) -> Question | None:
-    """Whether a reading that is not certain is meant without what the text says besides and no query can: how often,
-    how long, or under which condition. An utterance that a task was taught with may.
+    """Whether a reading that is not certain is meant in place of what the words say and what means nothing here, or
+    without what the text says besides and no query can: how often, how long, when, or under which condition. An
+    utterance that a task was taught with may.
     """
     if best.query is None or best.meaning is None or best.confidence >= 1.0:
         return None
+    if best.instead_of is not None:
+        return _meant(best.instead_of.detail, best, environment)
     passed_over = unsayable(text, best.query)
     stored = [taught.stored[task.task] for _, task in best.query.tasks if task.task in taught.stored]
     said = (example.text for template in stored for example in template.examples)
     if passed_over is None or any(unsayable(example, best.query) == passed_over for example in said):
         return None
+    return _meant(f'"{passed_over}" is not understood', best, environment)
+
+
+def _meant(doubt: str, best: Understanding, environment: Environment) -> Question:
+    assert best.meaning is not None
     says = best.meaning.explanation(environment)
-    return Question("reading", f'"{passed_over}" is not understood; do you mean: {says}?', (str(best.query),), (says,))
+    return Question("reading", f"{doubt}; do you mean: {says}?", (str(best.query),), (says,))
 
 
 def _either(readings: Sequence[Understanding], taught: Taught, environment: Environment) -> Question | None:

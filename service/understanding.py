@@ -68,13 +68,15 @@ class Meaning:
 class Understanding:
     """One way to understand a command: its query if the translator gives one, what it means, or why it means nothing.
 
-    Without an environment a query has no meaning yet, and a formula is as the translator gave it.
+    Without an environment a query has no meaning yet, and a formula is as the translator gave it. `instead_of` is why
+    what the words rather say means nothing.
     """
 
     query: Query | None
     confidence: float
     meaning: Meaning | None
     refusal: CqltlError | None
+    instead_of: CqltlError | None = None
 
 
 def understand(
@@ -114,7 +116,8 @@ def of_reading(reading: Reading, templates: Mapping[str, StoredTemplate]) -> Und
     """A reading with the warnings of its stored templates."""
     stored = [templates[task.task] for _, task in reading.query.tasks]
     meaning = None if reading.grounded is None else Meaning.of(reading.grounded, stored)
-    return Understanding(reading.query, reading.confidence, meaning, reading.refusal)
+    instead_of = None if reading.instead_of is None else reading.instead_of.refusal
+    return Understanding(reading.query, reading.confidence, meaning, reading.refusal, instead_of)
 
 
 def _of_formula(reading: FormulaReading) -> Understanding:

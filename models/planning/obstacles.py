@@ -34,9 +34,9 @@ def obstacles(part: World, automaton: Automaton, start: int, options: Options) -
     """Facts of all runs from `start` that make the goal impossible, the simplest first.
 
     Each makes it so by itself; where none does, all are needed together. None where no such facts are known, as with
-    too many states to look at.
+    too many states to look at, or no time.
     """
-    reached = _reached(part, start, options)
+    reached = None if options.hurry("evaluate") else _reached(part, start, options)
     facts = [] if reached is None else list(_facts(reached, automaton.atoms))
     try:
         alone = tuple(fact for fact in facts if not is_satisfiable(conjunction(automaton.formula, fact)))
@@ -47,7 +47,7 @@ def obstacles(part: World, automaton: Automaton, start: int, options: Options) -
 
 def _reached(part: World, start: int, options: Options) -> ReachableWorld | None:
     if isinstance(part, ReachableWorld):
-        return part
+        return part if part.size <= MOST_STATES else None
     begin = part.initial if isinstance(part, ProjectedWorld) else start
     return reachable_part(part, begin, most_states=MOST_STATES, most_outcomes=options.max_bytes // OUTCOME_BYTES)
 

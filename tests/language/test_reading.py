@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from models.language import Translation
 from models.language.reading import (
     AMBIGUOUS,
+    FAR_LIKELIER,
     GROUNDED,
     IMPROBABLE,
     MISSPELT,
@@ -140,6 +141,20 @@ def test_the_improbable_is_not_looked_at_beside_what_makes_full_sense():
     assert [str(r.query) for r in ranked(("pickup(spher)", 0.9), hardly)] == ["pickup(spher)", "move_to(sphere)"]
     assert len(ranked(sure, hardly, text="the cylinder")) == 2  # of which the first says nothing
     assert len(ranked(sure, hardly, environment=None)) == 2
+
+
+def test_what_is_far_likelier_by_the_words_is_noted_where_it_means_nothing():
+    rather, hardly = ("pickup(kitchen)", 0.9), ("move_to(kitchen)", 0.9 / FAR_LIKELIER)
+    first, second = ranked(rather, hardly)
+    assert (str(first.query), str(first.instead_of.query)) == ("move_to(kitchen)", "pickup(kitchen)")
+    assert first.instead_of.refusal.slug == "type-mismatch"
+    assert second.instead_of is None
+    assert ranked(("pickup(kitchen)", 0.8), hardly)[0].instead_of is None  # not so far
+    assert ranked(("pickup(sphere)", 0.9), hardly)[0].instead_of is None
+    assert (
+        ranked(("pickup(kitchen)", 0.9), ("pickup(bedroom)", 0.01))[0].instead_of is None
+    )  # nor is the other possible
+    assert ranked(rather, hardly, environment=None)[0].instead_of is None
 
 
 def test_a_reading_without_environment_has_full_weight():

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from models.logic import Atom, Binary, Formula, Op, Unary, conjunction, equivalent, is_satisfiable, parse, to_text
-from models.planning import Plan, plan
+from models.planning import Options, Plan, plan
 from models.planning import obstacles as module
 from models.world import builtin_environments, compile_world, explain, load_environment, resolve
 from tests.planning import brute
@@ -54,6 +54,11 @@ def test_what_can_be_done_has_none() -> None:
 def test_with_too_many_states_none_are_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "MOST_STATES", 3)
     assert why(plan(LINE, parse("F c"))) == []
+
+
+def test_without_time_none_are_known() -> None:
+    hurried = Options(hurry=lambda stage: stage == "evaluate")
+    assert why(plan(LINE, parse("F c"), options=hurried)) == []
 
 
 def test_with_many_propositions_they_are_looked_at_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from models.errors import CqltlError
 from models.logic import parse
 from models.queries import GroundedQuery, parse_query
 from models.world import builtin_environments, load_environment
@@ -53,3 +56,13 @@ def test_a_single_improbable_reading_is_to_be_confirmed() -> None:
     assert left.confidence == 1.0
     assert asked(left) is None
     assert asked(reading(*PICK, 0.3)) is None
+
+
+def test_what_the_words_do_not_say_is_to_be_confirmed() -> None:
+    impossible = CqltlError("kitchens cannot be picked up")
+    found = replace(reading(*GO, 0.9), instead_of=impossible)
+    question = asked(found)
+    assert question is not None
+    assert question.text == "kitchens cannot be picked up; do you mean: eventually the robot is at the sphere?"
+    (left,) = answered(TEXT, [found], [Answer("move_to(sphere)")], NOTHING_TAUGHT, TOYS)
+    assert asked(left) is None
