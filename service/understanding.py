@@ -68,8 +68,8 @@ class Meaning:
 class Understanding:
     """One way to understand a command: its query if the translator gives one, what it means, or why it means nothing.
 
-    Without an environment a query has no meaning yet, and a formula is as the translator gave it. `instead_of` is why
-    what the words rather say means nothing.
+    Without an environment a query has no meaning yet, and a formula is as the translator gave it. `instead_of` is
+    why what the words rather say means nothing, where this was put in its place.
     """
 
     query: Query | None

@@ -48,9 +48,8 @@ IMPROBABLE = 0.002
 it makes, it stays so much less probable.
 """
 FAR_LIKELIER = 10.0
-"""How many times likelier by the words a reading is that means nothing, for one that makes sense to be only put in its
-place: "pick up the oven" is not "switch on the oven" because ovens are too heavy. Of 381 commands that are understood
-rightly (`benchmarks.language`, the half that is read) four are thus doubted.
+"""How many times likelier by the words a reading that means nothing must be, for one that makes sense to count as put
+in its place: "pick up the oven" is not "switch on the oven" because ovens cannot be picked up.
 """
 
 R = TypeVar("R", "Reading", "FormulaReading")
@@ -63,7 +62,7 @@ class Reading:
     `grounded` is what it means in the environment and `refusal` why it means nothing there; both are None without an
     environment, unless the query has the wrong number of arguments. `senseless` is how many of its tasks mean nothing,
     `unsaid` how many things that the text names there it leaves out, `strange` how many are of a kind that another task
-    was taught with (`models.language.kinds`). `instead_of` is what the words say far likelier, and what means
+    was taught with (`models.language.kinds`). `instead_of` is what the words say far likelier, where that means
     nothing there.
     """
 

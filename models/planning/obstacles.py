@@ -79,7 +79,7 @@ def _may_lead_to(world: ReachableWorld, target: Holds) -> Holds:
     goals = np.flatnonzero(target)
     rows = np.concatenate([moves.successor, np.full(len(goals), size)])
     columns = np.concatenate([source, goals])
-    backwards = coo_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(size + 1, size + 1)).tocsr()
+    backwards = coo_array((np.ones(len(rows), np.bool_), (rows, columns)), shape=(size + 1, size + 1)).tocsr()
     found = np.zeros(size + 1, dtype=np.bool_)
     found[breadth_first_order(backwards, size, return_predecessors=False)] = True
     return found[:size]

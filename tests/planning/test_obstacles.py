@@ -114,3 +114,11 @@ def test_none_that_are_together_needed_can_be_left_out() -> None:
     goal = parse("F c | F (b & e)")
     assert all(is_satisfiable(conjunction(goal, fact)) for fact in (first, second))
     assert equivalent(conjunction(goal, first, second), parse("false"))
+
+
+def test_many_ways_from_one_state_to_another_are_a_way() -> None:
+    back = {f"back{number}": {0: 1.0} for number in range(256)}
+    world = ArrayWorld(
+        3, {0: {"go": {1: 1.0}}, 1: back, 2: {}}, {"a": frozenset({0}), "b": frozenset({1}), "c": frozenset({2})}
+    )
+    assert why(plan(world, parse("F (b & F a & F c)"))) == ["G !c"]
