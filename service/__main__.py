@@ -6,8 +6,11 @@ import argparse
 import asyncio
 import gc
 import json
+import os
+import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -155,19 +158,32 @@ def _remote(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 def _serve(settings: Settings, options: argparse.Namespace) -> int:
     port = settings.port if options.port is None else options.port
     with listen(settings, options.host or settings.host, port) as listener:  # first: what is refused loads nothing
-        from service.forkserver import launch
-        from service.keys import KeyRing
-        from service.store.migrate import migrate
+        with _ending_at_once():
+            from service.forkserver import launch
+            from service.keys import KeyRing
+            from service.store.migrate import migrate
 
-        if settings.api_keys_file:
-            KeyRing(settings.api_keys_file)
-        migrate(settings.url)
-        launch()  # before this process loads what it needs itself, so that both load at once
-        gc.disable()  # until all is loaded (`service.server`): to look through it in between takes a tenth of the time
-        from service.server import serve
+            if settings.api_keys_file:
+                KeyRing(settings.api_keys_file)
+            migrate(settings.url)
+            launch()  # before this process loads what it needs itself, so that both load at once
+            gc.disable()  # until all is loaded (`service.server`): to look through it takes a tenth of the time
+            from service.server import serve
 
         serve(settings, listener)
     return 0
+
+
+@contextmanager
+def _ending_at_once() -> Iterator[None]:
+    """Ctrl-C ends the process, whatever it does: there is nothing to put in order yet, and libraries that are
+    interrupted print what they were at.
+    """
+    before = signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _worker(settings: Settings, options: argparse.Namespace) -> int:
