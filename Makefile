@@ -2,6 +2,11 @@
 VENV ?= .venv
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := $(VENV)/bin
+PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
+
+# Modules are compiled when they are first loaded, not all of them while they are installed, which would take a minute;
+# so what was compiled has to be kept, also where the environment of whoever calls make says otherwise.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: serve test promises fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
 
@@ -33,8 +38,7 @@ schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of r
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py
 
 clients: $(VENV)/.dev  # clients generated from openapi.yaml, in build/clients, driven against a live server
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,clients]'
-	$(BIN)/python -m pytest -m 'long or not long' tests/clients
+	$(BIN)/python -m pytest tests/clients
 
 check: $(VENV)/.dev
 	$(BIN)/ruff check .
@@ -85,19 +89,20 @@ bench-teaching: $(VENV)/.dev  # tasks taught with one example, and with five
 	$(BIN)/python -m benchmarks.teaching --untaught
 
 bench-planning: $(VENV)/.dev  # against other planners; about half an hour
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev,bench]'
+	$(PIP_INSTALL) -e '.[dev,bench]'
 	$(BIN)/python -m benchmarks.planning --large --limit 420 --memory 16 --json docs/planning/results.json --plot docs/planning
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(VENV)/.serve: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	$(PIP_INSTALL) -e .
 	$(BIN)/python -m models.planning
 	touch $@
 
 $(VENV)/.dev: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	$(PIP_INSTALL) -e '.[dev]'
+	$(BIN)/python -m models.planning
 	touch $@ $(VENV)/.serve
 
 clean:

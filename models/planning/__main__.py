@@ -1,54 +1,8 @@
-"""Compile what planning compiles, so that the first plan need not wait for it.
-
-    python -m models.planning
-
-The compiled code is kept beside the sources (numba's cache), and made again when they change.
-"""
+"""`python -m models.planning`: compile what planning compiles; see `models.planning.warming`."""
 
 from __future__ import annotations
 
-from models.logic import parse
-from models.planning import Options, plan
-from models.world import World, compile_world, load_environment, toys_spec
-
-LISTED = {
-    "name": "warm",
-    "kind": "explicit",
-    "states": 6,
-    "labels": {"goal": [5], "trap": [4]},
-    "transitions": [
-        {"from": 0, "action": "go", "to": [[1, 0.5], [2, 0.5]]},
-        {"from": 0, "action": "try", "to": [[4, 0.5], [5, 0.5]]},
-        {"from": 1, "action": "go", "to": [[0, 0.5], [3, 0.5]]},
-        {"from": 2, "action": "go", "to": [[3, 1.0]]},
-        {"from": 3, "action": "try", "to": [[4, 0.1], [0, 0.4], [5, 0.5]]},
-        {"from": 5, "action": "go", "to": [[0, 1.0]]},
-    ],
-}
-"""A world listed state by state in which nothing is sure."""
-
-
-def warm() -> None:
-    """Plan one task of each kind: sure, uncertain, and to be done for ever."""
-    world = compile_world(load_environment(toys_spec(columns=2, rows=1, toys=[("sphere", "red")], slip=0.1)))
-    kitchen = world.variables[0].values[0]
-    _plan_all(
-        world,
-        "F holding(sphere)",
-        f"!at(robot, {kitchen}) U holding(sphere)",
-        f"X !at(robot, {kitchen}) & F holding(sphere)",
-        "G F holding(sphere) & G F !holding(sphere)",
-    )
-    listed = compile_world(load_environment(LISTED))
-    _plan_all(listed, "F goal", "!trap U goal", "G F goal", "F G !trap & G F goal")
-    plan(listed, parse("F goal"), options=Options(epsilon=1e-12))  # too near for upper bounds to be guessed
-
-
-def _plan_all(world: World, *tasks: str) -> None:
-    for task in tasks:
-        for objective in ("max", "min"):
-            plan(world, parse(task), options=Options(objective=objective))
-
+from models.planning.warming import compile_all
 
 if __name__ == "__main__":
-    warm()
+    compile_all()

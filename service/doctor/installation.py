@@ -82,7 +82,7 @@ def _kernels() -> Finding:
 
 
 def _planned() -> str:
-    from models.planning.__main__ import warm
+    from models.planning.warming import warm
 
     began = time.monotonic()
     warm()

@@ -97,7 +97,7 @@ class ReviewJob:
 
 def warm_planning() -> None:
     """Load what planning needs, and plan once so that nothing is left to load."""
-    from models.planning.__main__ import warm
+    from models.planning.warming import warm
 
     warm()
 

@@ -15,6 +15,7 @@ import httpx
 import pytest
 
 from benchmarks.server import serving
+from tests.programs import run, typescript
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LAST = "put(cylinder, box)"  # not the last action, but one that every run of the sentence has
@@ -43,12 +44,6 @@ def load(path: Path) -> ModuleType:
     module = sys.modules[path.stem] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
-
-
-def run(*command: str | Path) -> str:
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
-    assert result.returncode == 0, result.stdout + result.stderr
-    return result.stdout
 
 
 def test_curl(server: str) -> None:
@@ -133,23 +128,10 @@ def test_python_waits_for_jobs_and_repeats_what_found_the_service_busy(robot: Mo
 def test_typescript(server: str, tmp_path: Path) -> None:
     compiler = typescript(tmp_path)
     options = ("--strict", "--target", "es2022", "--module", "nodenext", "--outDir", tmp_path / "build")
-    run(*compiler, *options, EXAMPLES / "typescript" / "robot.ts")
+    run(compiler, *options, EXAMPLES / "typescript" / "robot.ts")
     said = run("node", tmp_path / "build" / "robot.js", server)
     assert LAST in said
     assert "satisfied" in said
-
-
-def typescript(folder: Path) -> list[str | Path]:
-    """The compiler; npm may have it in its cache, or fetch it."""
-    if (found := shutil.which("tsc")) is not None:
-        return [found]
-    if shutil.which("npm") is None or shutil.which("node") is None:
-        pytest.skip("no tsc and no npm to get it with (Debian and Ubuntu: apt install nodejs npm)")
-    command = ["npm", "--prefix", str(folder), "install", "--no-audit", "--no-fund", "--prefer-offline", "typescript@5"]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    if result.returncode != 0:
-        pytest.skip(f"npm has no typescript: {result.stderr.strip().splitlines()[-1:]}")
-    return [folder / "node_modules" / ".bin" / "tsc"]
 
 
 def test_cpp(server: str, tmp_path: Path) -> None:
