@@ -9,7 +9,7 @@ from models.language.reading import read
 from models.language.scene import Scene
 from models.language.translation import Translation
 from models.queries import Composition, ContextualQuery, Path, Query, Template, parameter_kinds, pointer_of
-from models.world import Environment, Symbol
+from models.world import Environment, Symbol, TypeMismatchError, UnknownPropositionError
 from service.taught import Taught
 from service.understanding import Understanding, of_reading
 
@@ -19,12 +19,16 @@ MAX_CHOICES = 20
 
 def things_for(template: Template, argument: int, environment: Environment) -> list[Symbol]:
     """What may be an argument: of the kinds that it was taught with, or where the environment has none of these, of any
-    kind that it may have, those with the fewest things first; no more than a question may offer.
+    kind that it may have, those with the fewest things first; no more than a question may offer, and none where the
+    environment has nothing that the template is about.
     """
     symbols = environment.symbols()
+    try:
+        possible = parameter_kinds(template.formula, environment, template.arity)[argument - 1]
+    except (UnknownPropositionError, TypeMismatchError):
+        return []
     taught = template.taught[argument - 1] if template.taught else frozenset()
-    kinds = taught & {symbol.kind for symbol in symbols}
-    kinds = kinds or parameter_kinds(template.formula, environment, template.arity)[argument - 1]
+    kinds = taught & {symbol.kind for symbol in symbols} or possible
     counts = Counter(symbol.kind for symbol in symbols if symbol.kind in kinds)
     offered: dict[str, int] = {}
     for kind, count in sorted(counts.items(), key=lambda item: (item[1], item[0])):

@@ -49,6 +49,13 @@ def test_what_may_be_too_many_things_is_not_asked_for(client: httpx.Client) -> N
     assert "navigate_one" in answer["nearest"]
 
 
+@pytest.mark.parametrize(("text", "environment"), [("stop", "warehouse"), ("Pick up a letter at the post office", "city")])
+def test_nothing_is_asked_for_where_nothing_makes_sense(client: httpx.Client, text: str, environment: str) -> None:
+    """What the task is about is not there at all."""
+    answer = ask(client, text, environment)
+    assert (answer["outcome"], answer["question"]) == ("unknown", None)
+
+
 def test_a_plan_is_not_made_for_a_command_that_leaves_something_out(client: httpx.Client) -> None:
     body = {"text": "bring the towel", "environment": "house"}
     problem = check_problem(client.post("/plan", json=body), "ambiguous-command", 422, ["/text"])
