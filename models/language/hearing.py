@@ -8,12 +8,13 @@ on. The last two weigh against each other: each is believed as far as the other 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
+from models.language.coordination import joined
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
-from models.language.reading import SENSELESS, Reading, rank, read
+from models.language.reading import GROUNDED, SENSELESS, Reading, rank, read
 from models.language.scene import Scene
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
 from models.language.tokens import is_mark, marked_words, words
@@ -47,6 +48,9 @@ QUESTION = 0.5
 """Probability that a text asks for nothing from which it is a question, if it begins like one."""
 COMPOSED = 0.4
 """Confidence from which a text that means nothing as one task is taken for several."""
+
+SHARED = 0.5
+"""Confidence from which a reading that does the same to all names that are joined is not doubted."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,6 +148,39 @@ class Hearing:
         """
         if is_formal(text):
             return ()
+        found = self._as_said(text, environment, candidates=candidates)
+        if environment is None or self.lessons is None:
+            return found
+        return self._of_each(text, environment, found, candidates=candidates)
+
+    def _of_each(
+        self, text: str, environment: Environment, found: tuple[Reading, ...], *, candidates: int
+    ) -> tuple[Reading, ...]:
+        """The readings of a text, before them what it says of each of the names that are joined in it, where none of
+        them says the same of all with more confidence.
+        """
+        best = found[0] if found and not _senseless(found[:1]) else None
+        for each in joined(text, environment):
+            if best is not None and best.confidence >= SHARED and not each.tears(best.query):
+                continue
+            parts = [self.readings(part, environment, candidates=1) for part in each.texts]
+            if any(not part or part[0].weight < GROUNDED for part in parts):
+                continue
+            query, confidence = (
+                each.put_together([part[0].query for part in parts]),
+                min(p[0].confidence for p in parts),
+            )
+            if query is None or (best is not None and confidence <= best.confidence):
+                continue
+            first = read([Translation(query, confidence)], Scene(text, environment, self.template_of))
+            if _senseless(first):
+                continue
+            rest = [replace(r, confidence=(1.0 - confidence) * r.confidence) for r in found if r.query != query]
+            return (*first, *rest)[:candidates]
+        return found
+
+    def _as_said(self, text: str, environment: Environment | None, *, candidates: int) -> tuple[Reading, ...]:
+        """As `readings`, of all the words together."""
         wanted = candidates if environment is None else max(candidates, BEAM_WIDTH)
         translator, lessons = self.translator, self.lessons
         scene = Scene(text, environment, self.template_of)

@@ -49,7 +49,9 @@ def test_what_may_be_too_many_things_is_not_asked_for(client: httpx.Client) -> N
     assert "navigate_one" in answer["nearest"]
 
 
-@pytest.mark.parametrize(("text", "environment"), [("stop", "warehouse"), ("Pick up a letter at the post office", "city")])
+@pytest.mark.parametrize(
+    ("text", "environment"), [("stop", "warehouse"), ("Pick up a letter at the post office", "city")]
+)
 def test_nothing_is_asked_for_where_nothing_makes_sense(client: httpx.Client, text: str, environment: str) -> None:
     """What the task is about is not there at all."""
     answer = ask(client, text, environment)
