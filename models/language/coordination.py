@@ -87,7 +87,7 @@ def joined(text: str, environment: Environment) -> Iterator[Joined]:
         TextTooLongError: the text is beyond the limits of a command.
     """
     said = marked_words(text)
-    groups = list(_groups(said, list(_named(said, environment))))
+    groups = list(_groups(said, named(said, environment)))
     if sum(len(group) for group, _ in groups) > MOST:
         return
     for group, operator in groups:
@@ -98,12 +98,14 @@ def joined(text: str, environment: Environment) -> Iterator[Joined]:
         yield Joined(operator, tuple(said[begin:end] for begin, end in group), tuple(texts))
 
 
-def _named(said: tuple[str, ...], environment: Environment) -> Iterator[_Range]:
-    """The ranges of words that name things; no name goes on beyond a mark."""
+def named(said: tuple[str, ...], environment: Environment) -> list[_Range]:
+    """The ranges of words that name things of an environment; no name goes on beyond a mark."""
     marks = [place for place, word in enumerate(said) if is_mark(word)]
-    for before, after in pairwise([-1, *marks, len(said)]):
-        for begin, end in mentions(said[before + 1 : after], environment):
-            yield before + 1 + begin, before + 1 + end
+    return [
+        (before + 1 + begin, before + 1 + end)
+        for before, after in pairwise([-1, *marks, len(said)])
+        for begin, end in mentions(said[before + 1 : after], environment)
+    ]
 
 
 def _groups(said: Sequence[str], named: Sequence[_Range]) -> Iterator[tuple[list[_Range], Operator]]:

@@ -11,16 +11,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
-from models.language.coordination import joined
+from models.language.coordination import Joined, joined
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
-from models.language.reading import GROUNDED, SENSELESS, Reading, rank, read
+from models.language.reading import SENSELESS, Reading, rank, read
 from models.language.scene import Scene
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
+from models.language.teaching.sources import mistakes_source
 from models.language.tokens import is_mark, marked_words, words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
 from models.language.trimming import trimmed
 from models.language.weighing import doubted, forbidden_too, merged, parted
+from models.language.whereabouts import Located, located
 from models.queries import Template
 from models.world import Environment, mentions, speaks_of_others
 
@@ -101,9 +103,14 @@ class Lessons:
         named = {said: () if environment is None else mentions(said, environment) for said in spoken}
         found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named.__getitem__)
         return [
-            self._taught(near, least=HEARD_OF_THINGS if named[said] else HEARD)
+            self._taught(self._without_sources(said, near), least=HEARD_OF_THINGS if named[said] else HEARD)
             for said, near in zip(spoken, found, strict=True)
         ]
+
+    def _without_sources(self, said: Sequence[str], near: Sequence[Translation]) -> tuple[Translation, ...]:
+        """What moves no thing to where the text says that it is."""
+        sources = self.wordings.sources
+        return tuple(t for t in near if not any(mistakes_source(said, task, sources) for _, task in t.query.tasks))
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""
@@ -156,24 +163,21 @@ class Hearing:
     def _of_each(
         self, text: str, environment: Environment, found: tuple[Reading, ...], *, candidates: int
     ) -> tuple[Reading, ...]:
-        """The readings of a text, before them what it says of each of the names that are joined in it, where none of
-        them says the same of all with more confidence.
+        """The readings of a text, before them what it says of each of the names that are joined in it, or of a thing
+        without where it is, where none of them is as sure.
         """
         best = found[0] if found and not _senseless(found[:1]) else None
-        for each in joined(text, environment):
-            if best is not None and best.confidence >= SHARED and not each.tears(best.query):
+        ways: list[Joined | Located] = [*located(text, environment), *joined(text, environment)]
+        for way in ways:
+            if best is not None and best.confidence >= SHARED and not way.tears(best.query):
                 continue
-            parts = [self.readings(part, environment, candidates=1) for part in each.texts]
-            if any(not part or part[0].weight < GROUNDED for part in parts):
-                continue
-            query, confidence = (
-                each.put_together([part[0].query for part in parts]),
-                min(p[0].confidence for p in parts),
-            )
+            parts = [self.readings(part, environment, candidates=1)[:1] for part in way.texts]
+            query = None if any(map(_senseless, parts)) else way.put_together([part[0].query for part in parts])
+            confidence = min((part[0].confidence for part in parts if part), default=0.0)
             if query is None or (best is not None and confidence <= best.confidence):
                 continue
             first = read([Translation(query, confidence)], Scene(text, environment, self.template_of))
-            if _senseless(first):
+            if found and _senseless(first):
                 continue
             rest = [replace(r, confidence=(1.0 - confidence) * r.confidence) for r in found if r.query != query]
             return (*first, *rest)[:candidates]

@@ -93,6 +93,19 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
             "F at(cup, kitchen) & F at(towel, bedroom)",
         ),
         ("toys", "never touch the ball or the orange", "G !near(robot, sphere) & G !near(robot, orange)"),
+        (
+            "house",
+            "Grab the mug from the living room and bring it to the kitchen",
+            "F holding(cup) & F at(cup, kitchen)",
+        ),
+        ("toys", "Fetch the ball from the bedroom", "F holding(sphere)"),
+        ("toys", "Take the ball out of the box", "-"),  # it is not there
+        ("warehouse", "move the red parcel from shelf B to shelf A", "F in(red_parcel, shelf_a)"),
+        (
+            "warehouse",
+            "Get the parcel off shelf A and bring it to the packing desk",
+            "F holding(blue_parcel) & F at(blue_parcel, packing_station)",
+        ),
         ("warehouse", "visit all shelves", "F near(robot, shelf_a) & F near(robot, shelf_b) & F near(robot, shelf_c)"),
         ("warehouse", "keep going between shelf a and shelf b", "G (F near(robot, shelf_a) & F near(robot, shelf_b))"),
     ],

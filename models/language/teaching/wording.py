@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from models.errors import CqltlError, Place
+from models.language.teaching.sources import SourceSlot, source_slots
 from models.language.teaching.utterance import DETERMINERS, Utterance
 from models.language.tokens import words
 from models.language.translation import Translation
@@ -121,12 +122,15 @@ class TaughtTranslator:
 
     wordings: tuple[tuple[Wording, frozenset[str]], ...]
     """Each with the words that must stand in a command; the most literal ones first."""
+    sources: frozenset[SourceSlot] = frozenset()
+    """The arguments that some wording says something else to be in: "unpack {1} from {2}"."""
 
     @classmethod
     def of(cls, utterances: Iterable[Utterance]) -> TaughtTranslator:
         """From utterances; raises as `Wording.of`."""
         kept = sorted(dict.fromkeys(map(Wording.of, utterances)), key=lambda wording: -wording.literal)
-        return cls(tuple((wording, frozenset(e for e in wording.elements if isinstance(e, str))) for wording in kept))
+        literals = (frozenset(e for e in wording.elements if isinstance(e, str)) for wording in kept)
+        return cls(tuple(zip(kept, literals, strict=True)), source_slots(kept))
 
     def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
         """As `translate`, of each text."""

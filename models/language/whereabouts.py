@@ -1,0 +1,67 @@
+"""Things with where they are: "take the ball out of the box" is said of the ball that is in the box.
+
+A network takes the box for where the ball shall go, or the words for no command. Said without the box, the command has
+nothing to mistake; the box tells which ball is meant, and is put back into its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from models.language.coordination import named
+from models.language.teaching.sources import SOURCES
+from models.language.tokens import marked_words
+from models.queries import Composition, Query
+from models.world import Environment
+from models.world.phrase_index import DETERMINERS
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """A command without where a thing is: the text, and the folded words for the thing and for where it is."""
+
+    text: str
+    name: tuple[str, ...]
+    whereabouts: tuple[str, ...]
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The one text."""
+        return (self.text,)
+
+    def tears(self, _query: Query, /) -> bool:
+        """Never: what is sure of the whole command knows what the place is for."""
+        return False
+
+    def put_together(self, queries: Sequence[Query]) -> Query | None:
+        """The query of the text with the place put back; None where it does not speak of the thing by its name."""
+        (query,) = queries
+        found = self._restored(query)
+        return None if found == query else found
+
+    def _restored(self, query: Query) -> Query:
+        if isinstance(query, Composition):
+            return replace(query, operands=tuple(map(self._restored, query.operands)))
+        arguments = (argument.split() for argument in query.arguments)
+        return replace(query, arguments=tuple(" ".join(self._with_place(said)) for said in arguments))
+
+    def _with_place(self, said: Sequence[str]) -> Sequence[str]:
+        """The words of an argument, and where it is if it is the thing: of "red ball" the end may be the argument."""
+        return (*said, *self.whereabouts) if tuple(said) == self.name[-len(said) :] else said
+
+
+def located(text: str, environment: Environment) -> Iterator[Located]:
+    """The things of an environment of which a command says where they are, left to right.
+
+    Raises:
+        TextTooLongError: the text is beyond the limits of a command.
+    """
+    said = marked_words(text)
+    for thing, place in pairwise(named(said, environment)):
+        between = said[thing[1] : place[0]]
+        relation = tuple(word for word in between if word not in DETERMINERS)
+        if relation in SOURCES:
+            shorter = " ".join((*said[: thing[1]], *said[place[1] :]))
+            yield Located(shorter, said[slice(*thing)], (*relation, *said[slice(*place)]))
