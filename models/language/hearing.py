@@ -7,11 +7,12 @@ on. The last two weigh against each other: each is believed as far as the other 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
 from models.language.coordination import Joined, joined
+from models.language.corrections import corrected
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
 from models.language.reading import SENSELESS, Reading, rank, read
@@ -189,7 +190,7 @@ class Hearing:
         translator, lessons = self.translator, self.lessons
         scene = Scene(text, environment, self.template_of)
         if lessons is None:
-            return rank(translator.translate(text, candidates=wanted), scene)[:candidates]
+            return _ranked(translator.translate(text, candidates=wanted), scene)[:candidates]
         if isinstance(translator, ComposedTranslator):
             translator = translator.knowing(lessons.within(None), nearby=lessons.within(environment))
         exact = lessons.wordings.translate(text, candidates=BEAM_WIDTH)
@@ -197,17 +198,17 @@ class Hearing:
         taught = read(exact, scene)
         sensible = bool(exact) and (environment is None or not _misheard(taught, environment))
         said: Sequence[Translation] = heard[:wanted]
-        ranked = rank(said, scene)
+        ranked = _ranked(said, scene)
         near: tuple[Translation, ...] = ()
         if not sensible and not _certain(ranked):
             if not self._is_question(text):
                 near = lessons.near(text, candidates=MATCHED, environment=environment)
             near, heard = self._told_apart(scene, near, heard, translator)
             said = weighed(near, heard[:wanted])
-            ranked = rank(said, scene)
+            ranked = _ranked(said, scene)
         if len(heard) > wanted and _senseless(ranked):
             said = weighed(near, heard)
-            ranked = rank(said, scene)
+            ranked = _ranked(said, scene)
         if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
             ranked = self._otherwise(scene, said, translator, wanted) or ranked
         if not heard and not exact and environment is not None and _senseless(ranked):
@@ -239,7 +240,7 @@ class Hearing:
             heard = composed.several(text, candidates=BEAM_WIDTH, asked=True)
         if negated and composed.forbids_in_part(text) >= FORBIDDEN_IN_PART:
             return (), tuple(heard)
-        sensible = rank(heard, scene)
+        sensible = _ranked(heard, scene)
         if _senseless(sensible) and any(self.lessons.wordings.translate(part) for part in composed.parts(text)):
             return (), tuple(heard) if sum(said.confidence for said in heard) > HEARD else ()
         likely = [Translation(reading.query, reading.confidence) for reading in sensible]
@@ -255,12 +256,17 @@ class Hearing:
         around the names, else several commands all the same; none where that means nothing either.
         """
         assert scene.environment is not None
-        composed = rank(translator.several(scene.text, candidates=candidates), scene)
+        composed = _ranked(translator.several(scene.text, candidates=candidates), scene)
         sensible = not _senseless(composed)
         if sensible and composed[0].confidence >= COMPOSED:
             return composed
-        shorter = rank(trimmed(heard, scene.environment, translator.saying), scene)
+        shorter = _ranked(trimmed(heard, scene.environment, translator.saying), scene)
         return shorter if not _senseless(shorter) else composed if sensible else ()
+
+
+def _ranked(translations: Iterable[Translation], scene: Scene) -> tuple[Reading, ...]:
+    """As `rank`, of what is put right first."""
+    return rank(corrected(scene.text, translations), scene)
 
 
 def _misheard(taught: Sequence[Reading], environment: Environment) -> bool:

@@ -1,4 +1,5 @@
-"""What commands say and queries cannot: how often, how long, at what time, and under which condition.
+"""What commands say and queries cannot: how often, how long, at what time, and under which condition; to stay, to keep
+things as they are, to come back to wherever the robot was; and how much.
 
 "Visit the museum twice", "stay there", "be there by noon", "close the door when it rains": a translator that hears
 the rest must not pass over it. Politeness is no condition: "if it is no trouble".
@@ -9,14 +10,26 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from models.language.corrections import LEAVING, STAYING
 from models.language.tokens import is_mark, marked_words, words
 from models.queries import Composition, Operator, Query
 
 _NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|twelve|twenty|thirty|several|a few|a couple of|\d+)"
 _UNIT = r"(?:seconds?|minutes?|hours?|days?|weeks?)"
+_ABOUT = r"(?:exactly |about |around |roughly |another |at least |at most |up to )?"
+_THE = r"(?:the|a|an|my|your|this|that|these|those|it|them)"
 _MEASURE = re.compile(
-    rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_NUMBER} {_UNIT}"
-    r"|(?:stay|remain|wait) (?:there|here))\b"
+    rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_ABOUT}{_NUMBER} {_UNIT}"
+    rf"|(?:stay|remain|wait) (?:there|here)|{STAYING} (?:{_THE} )?[\w-]+"
+    rf"|{LEAVING}(?! (?:[\w-]+ ){{1,4}}(?:in|on|at|by|to|with)\b) (?:{_THE} )?[\w-]+"
+    rf"|keep(?:ing)? (?!an eye){_THE} (?:[\w-]+ ){{0,3}}(?:on|off|open|closed|shut|running|in|at|inside|where)"
+    rf"|turn(?:ing)? {_THE} (?:[\w-]+ ){{0,3}}(?:down|up)|(?:turn|set)(?:t?ing)? (?:[\w-]+ ){{1,4}}to {_NUMBER}"
+    rf"|{_NUMBER} (?:degrees?|percent)|(?<!to )(?:check (?:up )?on|look after)"
+    r"|come (?:right |straight )?back(?! (?:to|with|for|from)\b)|(?:go|look|be|walk|drive) everywhere)\b"
+)
+_EXCUSED = re.compile(
+    r"\b(?:(?:don't|dont|do not|doesn't|does not) (?:have|need) to|need ?n[o']t|no need to|not (?:needed|necessary) to)"
+    r"\b"
 )
 _DAY = r"(?:(?:mon|tues|wednes|thurs|fri|satur|sun)day|weekend)"
 _MEAL = r"(?:breakfast|lunch|dinner|supper)"
@@ -78,7 +91,7 @@ def _conditions(said: tuple[str, ...]) -> Iterator[str]:
 
 
 def _times(said: tuple[str, ...], query: Query) -> Iterator[str]:
-    """Times that stand alone, or in a clause that speaks of what the query does."""
+    """Times, and leave not to, that stand alone or in a clause that speaks of what the query does."""
     spoken = _spoken(query)
     clause: list[str] = []
     for word in (*said, "."):
@@ -87,9 +100,10 @@ def _times(said: tuple[str, ...], query: Query) -> Iterator[str]:
         if not is_mark(word) and word not in _REASONS:
             clause.append(word)
             continue
-        found = _TIME.search(" ".join(clause))
-        if found and (found[0].split() == clause or not spoken.isdisjoint(clause)):
-            yield found[0]
+        for said_so in (_TIME, _EXCUSED):
+            found = said_so.search(" ".join(clause))
+            if found and (found[0].split() == clause or not spoken.isdisjoint(clause)):
+                yield found[0]
         clause = []
 
 

@@ -22,7 +22,7 @@ from models.world.mentions import mentions
 from models.world.oomdp import OomdpWorld
 from models.world.outline import Part, outline
 from models.world.projection import ProjectedWorld, Projection
-from models.world.quantifiers import Quantifier, widened, with_values
+from models.world.quantifiers import Quantifier, quantified, widened, with_values
 from models.world.reachable import ReachableWorld, reachable_part
 from models.world.relevance import relevant_part, relevant_parts
 from models.world.resolution import atom_symbols, distinct_name, resolve
@@ -76,6 +76,7 @@ __all__ = [
     "mentions",
     "navigation_spec",
     "outline",
+    "quantified",
     "reachable_part",
     "relevant_part",
     "relevant_parts",

@@ -15,7 +15,7 @@ hand, "card" is never read as "cart". Where kinds leave both a value and an obje
 decides: an adjective is a value, a noun an object.
 
 A phrase that is no name and begins with a quantifier ("any", "every", "both of") speaks of all the objects that what
-follows can mean: those of the name, and those of the description.
+follows can mean: those of the name, and those of the description, but for an exception ("all rooms but the hall").
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from models.world.environment import Environment
 from models.world.limits import MAX_RELATED
 from models.world.names import singular
 from models.world.phrase_index import WHATEVER, Words
-from models.world.quantifiers import Quantifier, counted, quantified
+from models.world.quantifiers import Quantifier, counted, excepted, quantified
 from models.world.vocabulary import Symbol, Vocabulary
 
 PartOfSpeech = Literal["noun", "adjective"]
@@ -68,7 +68,12 @@ def ground(
     if said.quantifier is not Quantifier.ONE:
         if reader.named(whole, None):  # "All Saints"
             return Grounding(phrase, _decided(reader.named(whole, kinds), environment.vocabulary, pos))
-        return _number_kept(phrase, reader.every(said.rest, kinds), said.quantifier, said.number)
+        rest, exception = excepted(said.rest)
+        found = reader.every(rest, kinds)
+        if exception:
+            left_out = {candidate.symbol for candidate in reader.excluded(exception)}
+            found = [candidate for candidate in found if candidate.symbol not in left_out] if left_out else []
+        return _number_kept(phrase, found, said.quantifier, said.number)
     return Grounding(phrase, _decided(reader.one(whole, kinds), environment.vocabulary, pos))
 
 
@@ -125,6 +130,11 @@ class _Reader:
     def one(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """What a phrase without quantifier may mean."""
         return self._spelled(self._one, said, kinds)
+
+    def excluded(self, said: Words) -> list[Candidate]:
+        """What an exception may mean, of whatever kind: "the hall", "any red one"."""
+        meant = quantified(" ".join(said))
+        return self.one(meant.rest, None) if meant.quantifier is Quantifier.ONE else self.every(meant.rest, None)
 
     def every(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """All objects that a phrase can mean."""

@@ -1,4 +1,4 @@
-"""Phrases that speak of several things: "any red toy", "everything in the kitchen", "both boxes".
+"""Phrases that speak of several things: "any red toy", "everything in the kitchen", "both boxes", "all but the hall".
 
 `ANY` is one of the things, whichever; `ALL` is each of them; `ONE` is the thing that any other phrase names. "A toy" is
 `ONE`: said to a robot it may mean a certain toy, so where there are several the speaker is asked.
@@ -59,6 +59,8 @@ def _listed(sayings: dict[Quantifier, str], follows: Words) -> list[tuple[Words,
 
 
 _OPENINGS = sorted([*_listed(_SAYINGS, ()), *_listed(_PRONOUNS, (WHATEVER,))], key=lambda opening: -len(opening[0]))
+_EXCEPTING = "except for; except; but not; but; excluding; apart from; other than; besides; save for"
+_EXCEPT = tuple(tuple(saying.split()) for saying in _EXCEPTING.split(";"))
 _FIRST = frozenset(opening[0] for opening, _, _ in _OPENINGS)
 _BEFORE = frozenset(opening for opening, _, follows in _OPENINGS if not follows)
 """What stands before a phrase: all but the pronouns."""
@@ -76,6 +78,15 @@ def quantified(phrase: str) -> Said:
                 number = 2 if "both" in opening else number
                 return Said(quantifier, opening, (*follows, *rest), number)
     return Said(Quantifier.ONE, (), spoken_words(phrase))
+
+
+def excepted(said: Words) -> tuple[Words, Words]:
+    """Words before and after one that makes an exception: "rooms", "hall" of "rooms except the hall"; all without."""
+    for place in range(1, len(said) - 1):
+        for saying in _EXCEPT:
+            if said[place : place + len(saying)] == saying and (after := said[place + len(saying) :]):
+                return said[:place], after
+    return said, ()
 
 
 def counted(said: Words) -> tuple[Words, int | None]:

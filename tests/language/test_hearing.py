@@ -106,6 +106,13 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
             "Get the parcel off shelf A and bring it to the packing desk",
             "F holding(blue_parcel) & F at(blue_parcel, packing_station)",
         ),
+        (
+            "toys",
+            "visit all rooms but the bathroom",
+            "F at(robot, kitchen) & F at(robot, bedroom) & F at(robot, living_room)",
+        ),
+        ("house", "turn the oven on, then turn it off again", "F (running(oven) & F !running(oven))"),
+        ("house", "keep the oven off", "F !running(oven)"),  # the service asks whether that is meant
         ("warehouse", "visit all shelves", "F near(robot, shelf_a) & F near(robot, shelf_b) & F near(robot, shelf_c)"),
         ("warehouse", "keep going between shelf a and shelf b", "G (F near(robot, shelf_a) & F near(robot, shelf_b))"),
     ],

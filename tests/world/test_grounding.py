@@ -287,3 +287,20 @@ def test_candidates_are_distinct_and_keep_the_order_of_symbols(home_module, phra
 @pytest.fixture(scope="module")
 def home_module(home):
     return home
+
+
+@pytest.mark.parametrize(
+    ("phrase", "kinds", "found"),
+    [
+        ("all toys except the ball", {"toy"}, {"bag_toy", "marble", "orange", "H&M (2nd floor)", "child's_glasses"}),
+        ("every toy but any red one", {"toy"}, {"bag_toy", "marble", "orange", "H&M (2nd floor)", "child's_glasses"}),
+        ("all rooms other than my galley", {"cell"}, {"bedroom"}),
+        ("any box apart from the crate", {"box"}, {"small_red_bucket", "bag"}),
+        ("everything except for the crate", {"box"}, {"small_red_bucket", "bag"}),
+        ("all boxes but the spaceship", {"box"}, set()),  # an exception that is nothing is not understood
+        ("the box but the crate", {"box"}, set()),
+    ],
+)
+def test_an_exception_is_left_out(home, phrase: str, kinds: set[str], found: set[str]) -> None:
+    names = {candidate.symbol.name for candidate in ground(phrase, home, kinds=frozenset(kinds)).candidates}
+    assert names == found

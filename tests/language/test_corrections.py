@@ -1,0 +1,74 @@
+"""What says the contrary of a text is left out, and what says more is put right."""
+
+from __future__ import annotations
+
+import pytest
+
+from models.language.corrections import corrected
+from models.language.translation import Translation
+from models.queries import parse_query
+
+
+def correct(text: str, *queries: str) -> list[str]:
+    found = corrected(text, [Translation(parse_query(query), 0.5) for query in queries])
+    return [str(translation.query) for translation in found]
+
+
+@pytest.mark.parametrize(
+    ("text", "query"),
+    [
+        ("stay in the kitchen until you have the ball", "until(avoid(go(kitchen)), pickup(ball))"),
+        ("Remain at my desk", "avoid(go(desk))"),
+        ("wait by the door, then fetch it", "then(avoid(go(door)), fetch(it))"),
+        ("don't leave the kitchen", "avoid(go(kitchen))"),
+        ("never ever exit the hall", "avoid(go(hall))"),
+        ("don't let the cup leave the living room", "avoid(bring(cup, living room))"),
+        ("keep the oven off", "avoid(switch_off(oven))"),
+        ("never leave the oven on", "avoid(switch_off(oven))"),
+        ("keep the oven on", "avoid(switch_on(oven))"),
+    ],
+)
+def test_the_contrary_is_not_heard(text: str, query: str) -> None:
+    assert correct(text, query, "pickup(ball)") == ["pickup(ball)"]
+
+
+@pytest.mark.parametrize(
+    ("text", "query"),
+    [
+        ("stay out of the kitchen", "avoid(go(kitchen))"),
+        ("don't stay in the kitchen", "avoid(go(kitchen))"),
+        ("the cup cannot stay in the hall", "avoid(bring(cup, hall))"),
+        ("never leave the ball in the kitchen", "avoid(bring(ball, kitchen))"),
+        ("never leave the oven on", "avoid(switch_on(oven))"),
+        ("keep the oven off", "avoid(switch_on(oven))"),
+        ("stay in the hall and never enter the kitchen", "avoid(go(kitchen))"),
+        ("keep going to the hall again and again", "repeat(go(hall))"),
+        ("visit the hall over and over again", "repeat(go(hall))"),
+        ("go to the hall or the lounge", "or(go(hall), go(lounge))"),
+        ("visit the hall but not the lounge", "and(go(hall), avoid(go(lounge)))"),
+    ],
+)
+def test_what_the_text_says_stays(text: str, query: str) -> None:
+    assert correct(text, query) == [query]
+
+
+@pytest.mark.parametrize(
+    ("text", "query", "right"),
+    [
+        ("turn it on, then off again", "then(start(it), repeat(stop(it)))", "then(start(it), stop(it))"),
+        ("go to the hall again", "repeat(go(hall))", "go(hall)"),
+        ("visit all rooms except the hall", "and(go(all rooms), avoid(go(hall)))", "go(all rooms except the hall)"),
+        ("put any toy but the bag in it", "and(put(any toy, it), avoid(put(bag, it)))", "put(any toy but the bag, it)"),
+        ("go to the lounge instead of the hall", "or(go(lounge), go(hall))", "go(lounge)"),
+        ("rather than my hall, visit the lounge", "or(go(lounge), go(hall))", "go(lounge)"),
+    ],
+)
+def test_what_says_more_is_put_right(text: str, query: str, right: str) -> None:
+    assert correct(text, query) == [right]
+
+
+def test_what_comes_to_be_the_same_is_as_probable_as_all() -> None:
+    (found,) = corrected(
+        "go there again", [Translation(parse_query(q), 0.3) for q in ("repeat(go(there))", "go(there)")]
+    )
+    assert (str(found.query), found.confidence) == ("go(there)", 0.6)
