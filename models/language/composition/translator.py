@@ -23,7 +23,14 @@ from models.language.composition.shapes import (
     of_several_clauses,
     read_shape,
 )
-from models.language.composition.understanding import ALONE, CERTAIN, SpokenClauses, Taught
+from models.language.composition.understanding import (
+    ALONE,
+    CERTAIN,
+    JOINING,
+    SpokenClauses,
+    Taught,
+    goes_elsewhere,
+)
 from models.language.spans.ensemble import SpanEnsemble
 from models.language.spans.model import load_model
 from models.language.spans.reader import SpanReader
@@ -54,8 +61,6 @@ and pick up the ball" is hardly one task.
 """
 APART = 0.7
 """Share of the readings of each clause by itself, where two of them may also be one task."""
-JOINING = frozenset({"and", "then", "but", "or"})
-"""Words that join a command to another."""
 WHILE = frozenset({"while", "whilst", "during"})
 MOST = 4
 """Ways to put clauses together that are looked at."""
@@ -103,6 +108,8 @@ class ComposedTranslator:
             return ()
         understand = self._clauses()
         whole = understand.alone(text)
+        if goes_elsewhere(whole, spoken, understand):
+            return self._several(spoken, understand, candidates) or whole[:candidates]
         negated = not NEGATIONS.isdisjoint(spoken)
         if understood(whole) >= SURE and not negated:
             return whole[:candidates]
@@ -134,9 +141,14 @@ class ComposedTranslator:
         spoken = marked_words(text)
         if not any(not is_mark(word) for word in spoken):
             return ()
+        return self._several(spoken, self._clauses(), candidates, asked=asked)
+
+    def _several(
+        self, spoken: Sequence[str], understand: SpokenClauses, candidates: int, *, asked: bool = False
+    ) -> tuple[Translation, ...]:
         shapes, refusal = self._shapes(spoken)
         composed = [shape for shape in shapes if has_several(shape.shape)]
-        found = self._weighed((), composed, spoken, self._clauses())
+        found = self._weighed((), composed, spoken, understand)
         return _ranked(found, 0.0 if asked else refusal, candidates)
 
     def forbids(self, text: str) -> float:

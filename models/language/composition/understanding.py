@@ -6,7 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from models.language.composition.arrangement import unmarked
+from models.language.composition.shapes import in_one_clause, of_several_clauses
 from models.language.spans.translator import SpanTranslator, understood
+from models.language.tokens import find, is_mark
 from models.language.translation import BEAM_WIDTH, Translation, weighed
 
 ALONE = 0.5
@@ -17,6 +20,11 @@ ASKED = 0.6
 """Probability that a clause which says nothing else is near to what was taught."""
 TAUGHT = 0.9
 """Most share of the taught readings of a clause; the environment may turn it round."""
+
+JOINING = frozenset({"and", "then", "but", "or"})
+"""Words that join a command to another."""
+PRONOUNS = frozenset({"it", "them", "this", "that", "these", "those", "one"})
+"""What is said of a thing that was named before."""
 
 
 class Taught(Protocol):
@@ -76,3 +84,23 @@ def _asked(taught: Sequence[Translation]) -> Sequence[Translation]:
     """What a clause may say that says nothing else: as it asks for something, that is likelier than by itself."""
     total = sum(translation.confidence for translation in taught)
     return [replace(t, confidence=t.confidence * ASKED / total) for t in taught] if total < ASKED else taught
+
+
+def goes_elsewhere(whole: Sequence[Translation], spoken: Sequence[str], understand: SpokenClauses) -> bool:
+    """Whether the last clause of what is read as one task of several clauses is a command of its own, and of nothing
+    but the last argument: who puts the ball in the box "and goes to the hall" need not take it there.
+    """
+    if not whole or not of_several_clauses(whole[0].query):
+        return False
+    ((_, task),) = whole[0].query.tasks
+    begin = next((at for at in range(len(spoken) - 2, -1, -1) if is_mark(spoken[at]) or spoken[at] in JOINING), -1)
+    clause = unmarked(spoken[begin + 1 :])
+    *others, last = (argument.split() for argument in task.arguments)
+    if begin < 0 or not PRONOUNS.isdisjoint(clause) or any(find(other, clause) is not None for other in others):
+        return False
+    alone = understand.alone(" ".join(clause))
+    return understood(alone) >= CERTAIN and in_one_clause(alone[0].query) and _arguments(alone[0]) == [last]
+
+
+def _arguments(translation: Translation) -> list[list[str]]:
+    return [argument.split() for _, task in translation.query.tasks for argument in task.arguments]
