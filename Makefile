@@ -8,7 +8,7 @@ PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check 
 # so what was compiled has to be kept, also where the environment of whoever calls make says otherwise.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: serve test promises fuzz page-check docs-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
+.PHONY: serve test promises fuzz page-check docs-check setup-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -32,7 +32,10 @@ page-check: $(VENV)/.dev  # the page in Chromium: what a visitor does, who can u
 	$(BIN)/python -m pytest -m long tests/page
 
 docs-check: $(VENV)/.dev  # all that README.md and docs/*.md tell their readers to type, against servers of their own; a minute
-	$(BIN)/python -m pytest -m 'long or not long' tests/documents
+	$(BIN)/python -m pytest -m 'long or not long' tests/documents --ignore tests/documents/test_setup.py
+
+setup-check: $(VENV)/.dev  # what they tell them of setting up, in a new copy with environments of its own; ten minutes
+	$(BIN)/python -m pytest -m long tests/documents/test_setup.py
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py

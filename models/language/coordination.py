@@ -16,12 +16,20 @@ from models.queries import Composition, ContextualQuery, Operator, Query, QueryS
 from models.world import Environment, mentions
 from models.world.phrase_index import DETERMINERS
 
-JOINING = {"and": Operator.AND, "or": Operator.OR}
+JOINING = {
+    ("and",): Operator.AND,
+    ("as", "well", "as"): Operator.AND,
+    ("along", "with"): Operator.AND,
+    ("together", "with"): Operator.AND,
+    ("or",): Operator.OR,
+}
 """Words between names, and how what is said of each is put together."""
 BEFORE = frozenset({"both", "either"})
 """Words before names that are joined."""
 EACH = {"them": "it"}
 """Pronouns for things together, and what each of them is called: "... and put them in the box"."""
+VERBS = {"are": "is", "were": "was", "have": "has"}
+"""Verbs right after names that are joined, and after one: "once the ball and the bag are in the box"."""
 CARRYING = frozenset({Operator.THEN, Operator.AND, Operator.OR, Operator.REPEAT})
 """Operators within which what is said of two names is said of each; to avoid both may be to avoid either."""
 MOST = 8
@@ -58,7 +66,7 @@ class Joined:
             return _composed(self.operator, queries) if self._differ_in_names(queries) else None
         same = [query for query in queries if isinstance(query, Composition) and query.operator is first.operator]
         differing = _differing([query.operands for query in same])
-        if len(same) < len(queries) or first.operator not in CARRYING or not differing:
+        if len(same) < len(queries) or not differing or not _carries(first.operator, differing):
             return None
         if len(differing) > 1:
             return _composed(self.operator, queries)
@@ -94,6 +102,7 @@ def joined(text: str, environment: Environment) -> Iterator[Joined]:
         first = _with_article(said, group[0])
         begin = first - 1 if first > 0 and said[first - 1] in BEFORE else first
         after = [EACH.get(word, word) for word in said[group[-1][1] :]]
+        after[:1] = [VERBS.get(word, word) for word in after[:1]]
         texts = [" ".join((*said[:begin], *said[_with_article(said, each) : each[1]], *after)) for each in group]
         yield Joined(operator, tuple(said[begin:end] for begin, end in group), tuple(texts))
 
@@ -112,25 +121,23 @@ def _groups(said: Sequence[str], named: Sequence[_Range]) -> Iterator[tuple[list
     """Ranges of names with nothing between them but commas and one conjunction, which stands before the last."""
     group, operator = list(named[:1]), None
     for before, after in pairwise(named):
-        word = _conjunction(said[before[1] : after[0]])
-        if word is None or operator not in (None, JOINING.get(word)):
+        joining = _conjunction(said[before[1] : after[0]])
+        if joining is None or operator not in (None, JOINING.get(joining)):
             if operator is not None:
                 yield group, operator
             group, operator = [after], None
         else:
             group.append(after)
-            operator = JOINING.get(word)
+            operator = JOINING.get(joining)
     if operator is not None:
         yield group, operator
 
 
-def _conjunction(between: Sequence[str]) -> str | None:
-    """The word that joins two names, "" for a comma alone; None where more stands between them, or nothing."""
+def _conjunction(between: Sequence[str]) -> tuple[str, ...] | None:
+    """The words that join two names, none for a comma alone; None where others stand between them, or nothing."""
     joining = [word for word in between if word not in DETERMINERS]
-    spoken = [word for word in joining if word != ","]
-    if not joining or len(spoken) > 1 or not JOINING.keys() >= set(spoken):
-        return None
-    return spoken[0] if spoken else ""
+    spoken = tuple(word for word in joining if word != ",")
+    return spoken if joining and (not spoken or spoken in JOINING) else None
 
 
 def _with_article(said: Sequence[str], named: _Range) -> int:
@@ -139,6 +146,11 @@ def _with_article(said: Sequence[str], named: _Range) -> int:
     while begin > 0 and said[begin - 1] in DETERMINERS:
         begin -= 1
     return begin
+
+
+def _carries(operator: Operator, differing: Sequence[int]) -> bool:
+    """Whether what is said of two names within these operands is said of each; "until" may wait for both."""
+    return operator in CARRYING or (operator is Operator.UNTIL and list(differing) == [1])
 
 
 def _speaks_of(task: ContextualQuery, name: Sequence[str]) -> bool:

@@ -177,8 +177,9 @@ class Hearing:
             confidence = min((part[0].confidence for part in parts if part), default=0.0)
             if query is None or (best is not None and confidence <= best.confidence):
                 continue
-            first = read([Translation(query, confidence)], Scene(text, environment, self.template_of))
-            if found and _senseless(first):
+            right = corrected(text, [Translation(query, confidence)])
+            first = read(right, Scene(text, environment, self.template_of))
+            if not first or (found and _senseless(first)):
                 continue
             rest = [replace(r, confidence=(1.0 - confidence) * r.confidence) for r in found if r.query != query]
             return (*first, *rest)[:candidates]

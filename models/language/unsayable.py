@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from models.language.corrections import LEAVING, STAYING
+from models.language.corrections import EXCUSED, LEAVING, STAYING
 from models.language.tokens import is_mark, marked_words, words
 from models.queries import Composition, Operator, Query
 
@@ -18,19 +18,41 @@ _NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|twelve|twenty|thirty
 _UNIT = r"(?:seconds?|minutes?|hours?|days?|weeks?)"
 _ABOUT = r"(?:exactly |about |around |roughly |another |at least |at most |up to )?"
 _THE = r"(?:the|a|an|my|your|this|that|these|those|it|them)"
-_MEASURE = re.compile(
-    rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_ABOUT}{_NUMBER} {_UNIT}"
-    rf"|(?:stay|remain|wait) (?:there|here)|{STAYING} (?:{_THE} )?[\w-]+"
+_OFTEN = re.compile(
+    rf"\b(?:twice|thrice|{_NUMBER} (?:more )?times|(?:for|in|within|after) {_ABOUT}{_NUMBER} {_UNIT})\b"
+)
+"""How often, and how long."""
+_KEPT = re.compile(
+    rf"\b(?:(?:stay|remain|wait) (?:there|here)|{STAYING} (?:{_THE} )?[\w-]+"
     rf"|{LEAVING}(?! (?:[\w-]+ ){{1,4}}(?:in|on|at|by|to|with)\b) (?:{_THE} )?[\w-]+"
     rf"|keep(?:ing)? (?!an eye){_THE} (?:[\w-]+ ){{0,3}}(?:on|off|open|closed|shut|running|in|at|inside|where)"
-    rf"|turn(?:ing)? {_THE} (?:[\w-]+ ){{0,3}}(?:down|up)|(?:turn|set)(?:t?ing)? (?:[\w-]+ ){{1,4}}to {_NUMBER}"
+    rf"|leave {_THE} (?:[\w-]+ ){{0,3}}(?:running|(?:on|off)(?= (?:until|while|when|and|then|for)\b|$)))\b"
+)
+"""To stay somewhere, and to keep things as they are."""
+_OTHERWISE = re.compile(
+    rf"\b(?:turn(?:ing)? {_THE} (?:[\w-]+ ){{0,3}}(?:down|up)|(?:turn|set)(?:t?ing)? (?:[\w-]+ ){{1,4}}to {_NUMBER}"
     rf"|{_NUMBER} (?:degrees?|percent)|(?<!to )(?:check (?:up )?on|look after)"
     r"|come (?:right |straight )?back(?! (?:to|with|for|from)\b)|(?:go|look|be|walk|drive) everywhere)\b"
 )
-_EXCUSED = re.compile(
-    r"\b(?:(?:don't|dont|do not|doesn't|does not) (?:have|need) to|need ?n[o']t|no need to|not (?:needed|necessary) to)"
-    r"\b"
+"""How much; and verbs that change nothing, or have no place."""
+_DISCOURAGED = re.compile(
+    rf"\b(?:{EXCUSED}|(?:bad|terrible|poor|stupid) idea|(?:be|is|it's) (?:bad|dangerous|wrong|forbidden|unwise) to"
+    r"|no (?:point|sense|use) in|(?:hate|dislike) (?:it if )?(?:you|for you)|never (?:told|said|asked)|what if"
+    r"|wish (?:i|we|you) (?:had|were|could))\b"
 )
+"""Before what is not to be done, or need not be."""
+_REPORT = re.compile(
+    r"(?!(?:it|that|this|there|what|who|here) )(?:(?:the|my|your|a|an) )?(?:[\w'&-]+ ){1,4}"
+    r"(?:is|are|was|were) (?:now |already |still )?"
+    r"(?:on|off|in|at|inside|near)\b"
+)
+"""How things are."""
+_MODAL = frozenset(
+    {"should", "must", "shall", "ought", "need", "needs", "supposed", "please", "want", "like", "better"}
+)
+"""With one of these a text says how things shall be."""
+_BOTH = re.compile(r"\b(?:off and (?:then )?on|on and (?:then )?off)\b")
+_EXCEPTED = re.compile(rf"^(?:except for|except|apart from|other than|excluding) (?:{_THE} )?[\w-]+")
 _DAY = r"(?:(?:mon|tues|wednes|thurs|fri|satur|sun)day|weekend)"
 _MEAL = r"(?:breakfast|lunch|dinner|supper)"
 _CLOCK = rf"(?:noon|midnight|dawn|dusk|sunrise|sunset|{_MEAL}|{_NUMBER}(?: \d\d)? ?(?:am|pm|o'?clock))"
@@ -68,18 +90,39 @@ _ELSE = frozenset({"else", "otherwise", "instead", "or"})
 
 
 def unsayable(text: str, query: Query) -> str | None:
-    """The first words of a command that say how often, how long, at what time or under which condition, unless they are
-    in a name that the query speaks of; None without any.
+    """The first words of a command that say what no query does, such as how often, how long, at what time, or on which
+    condition, unless they are in a name that the query speaks of; None without any.
 
     Raises:
         TextTooLongError: the text is beyond the limits of a command.
     """
     names = [f" {phrase} " for _, task in query.tasks for phrase in task.arguments]
-    measures = [found[0] for found in _MEASURE.finditer(" ".join(words(text)))]
+    plain = " ".join(words(text))
+    passed_over = (found[0] for pattern in (_OFTEN, _KEPT, _OTHERWISE) for found in pattern.finditer(plain))
     chosen = isinstance(query, Composition) and query.operator is Operator.OR and not _ELSE.isdisjoint(words(text))
     marked = marked_words(text)
-    found = (*measures, *_times(marked, query), *(() if chosen else _conditions(marked)), *_occasions(marked, query))
+    found = (
+        *passed_over,
+        *_reports(marked, query),
+        *_times(marked, query),
+        *(() if chosen else _conditions(marked)),
+        *_occasions(marked, query),
+    )
     return next((said for said in found if not any(f" {said} " in name for name in names)), None)
+
+
+def _reports(said: tuple[str, ...], query: Query) -> Iterator[str]:
+    """A text that only tells how things are ("the oven is on"), an exception at its beginning, and both of two tasks of
+    which the query does one ("turn it off and on").
+    """
+    plain = " ".join(word for word in said if word not in (".", "!"))
+    if _MODAL.isdisjoint(said) and not any(is_mark(word) for word in said[:-1]) and _REPORT.match(plain):
+        yield plain
+    if (excepted := _EXCEPTED.match(plain)) is not None:
+        yield excepted[0]
+    does = {part for _, task in query.tasks for part in task.task.split("_")}
+    if (both := _BOTH.search(plain)) is not None and len(does & {"on", "off"}) == 1:
+        yield both[0]
 
 
 def _conditions(said: tuple[str, ...]) -> Iterator[str]:
@@ -91,7 +134,7 @@ def _conditions(said: tuple[str, ...]) -> Iterator[str]:
 
 
 def _times(said: tuple[str, ...], query: Query) -> Iterator[str]:
-    """Times, and leave not to, that stand alone or in a clause that speaks of what the query does."""
+    """Times, and what speaks against doing it, that stand alone or in a clause that speaks of what the query does."""
     spoken = _spoken(query)
     clause: list[str] = []
     for word in (*said, "."):
@@ -100,7 +143,7 @@ def _times(said: tuple[str, ...], query: Query) -> Iterator[str]:
         if not is_mark(word) and word not in _REASONS:
             clause.append(word)
             continue
-        for said_so in (_TIME, _EXCUSED):
+        for said_so in (_TIME, _DISCOURAGED):
             found = said_so.search(" ".join(clause))
             if found and (found[0].split() == clause or not spoken.isdisjoint(clause)):
                 yield found[0]

@@ -17,6 +17,13 @@ from models.queries import Composition, Query
 from models.world import Environment
 from models.world.phrase_index import DETERMINERS
 
+STANDING = {
+    (*which, place)
+    for which in (("that's",), ("which's",), ("that", "is"), ("which", "is"))
+    for place in ("in", "at", "on", "inside", "near")
+}
+"""Words that tell where a thing is, in a clause of their own: "the ball that's in the bedroom"."""
+
 
 @dataclass(frozen=True, slots=True)
 class Located:
@@ -61,7 +68,8 @@ def located(text: str, environment: Environment) -> Iterator[Located]:
     said = marked_words(text)
     for thing, place in pairwise(named(said, environment)):
         between = said[thing[1] : place[0]]
-        relation = tuple(word for word in between if word not in DETERMINERS)
-        if relation in SOURCES:
+        relation = tuple(w for at, w in enumerate(between) if w not in DETERMINERS or (at == 0 and w == "that"))
+        relation = relation[-1:] if relation in STANDING else relation if relation in SOURCES else ()
+        if relation:
             shorter = " ".join((*said[: thing[1]], *said[place[1] :]))
             yield Located(shorter, said[slice(*thing)], (*relation, *said[slice(*place)]))

@@ -20,6 +20,7 @@ follows can mean: those of the name, and those of the description, but for an ex
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import wraps
@@ -71,7 +72,7 @@ def ground(
         rest, exception = excepted(said.rest)
         found = reader.every(rest, kinds)
         if exception:
-            left_out = {candidate.symbol for candidate in reader.excluded(exception)}
+            left_out = reader.excluded(exception)
             found = [candidate for candidate in found if candidate.symbol not in left_out] if left_out else []
         return _number_kept(phrase, found, said.quantifier, said.number)
     return Grounding(phrase, _decided(reader.one(whole, kinds), environment.vocabulary, pos))
@@ -131,10 +132,17 @@ class _Reader:
         """What a phrase without quantifier may mean."""
         return self._spelled(self._one, said, kinds)
 
-    def excluded(self, said: Words) -> list[Candidate]:
-        """What an exception may mean, of whatever kind: "the hall", "any red one"."""
-        meant = quantified(" ".join(said))
-        return self.one(meant.rest, None) if meant.quantifier is Quantifier.ONE else self.every(meant.rest, None)
+    def excluded(self, said: Words) -> set[Symbol]:
+        """What an exception may mean, of whatever kind: "the hall and any red one"; none where a part means nothing."""
+        found: set[Symbol] = set()
+        for part in re.split(r" (?:and|or|nor) ", " ".join(said)):
+            meant = quantified(part)
+            read = self.one if meant.quantifier is Quantifier.ONE else self.every
+            candidates = read(meant.rest, None)
+            if not candidates:
+                return set()
+            found.update(candidate.symbol for candidate in candidates)
+        return found
 
     def every(self, said: Words, kinds: Kinds | None) -> list[Candidate]:
         """All objects that a phrase can mean."""

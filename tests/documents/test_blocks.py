@@ -1,4 +1,4 @@
-"""Every code block of README.md and docs/*.md is executed; those that a bare machine cannot run are named here."""
+"""Every code block of README.md and docs/*.md is executed; `unrun.py` names those that are not run with their page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import re
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 import yaml
@@ -21,25 +20,10 @@ from models.world import builtin_environments, compile_world, load_environment
 from service.http import schemas
 from tests.documents import commands, session
 from tests.documents.blocks import PAGES, ROOT, Block, blocks, indented, read
+from tests.documents.unrun import APART, entry
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
 LANGUAGES = {"sh", "yaml", "python", "prism", "json", "text", "ltl", "query"}
-Entry = TypeVar("Entry")
-
-UNRUN = {
-    ("README.md", "make serve"): "sets up an environment from a package index, does not end, and runs these tests",
-    ("docs/tutorial.md", "make serve"): "does not end; the rest of the page has a server of the same command",
-    ("docs/running.md", "make wheel"): "builds and installs for minutes; `make wheel-check` goes this way",
-    ("docs/running.md", "docker compose --file docker/compose.yaml up"): "needs Docker",
-    ("docs/running.md", "docker compose --file docker/compose.yaml exec"): "needs Docker",
-    ("docs/running.md", "export CQLTL_DB_PASSWORD"): "needs Docker",
-    ("docs/settings.md", "export CQLTL_DATABASE_URL=postgresql"): "needs PostgreSQL; see tests/service/jobs",
-    ("docs/clients.md", "pip install -e '.[clients]'"): "downloads generators; `make clients` goes this way",
-    ("docs/language.md", "make train"): "trains networks for hours",
-    ("docs/experiments.md", "pip install -e '.[dev]'"): "trains networks for hours",
-    ("docs/experiments.md", "make evaluate-human"): "needs data that are not in the repository",
-}
-"""How the blocks begin that are not run, and why not. What their commands name has to be there."""
 
 
 def is_the_order_of_imports(block: Block) -> None:
@@ -73,12 +57,6 @@ DRAWINGS: dict[tuple[str, str], Callable[[Block], None]] = {
     ("docs/planning.md", "[pick_cylinder]"): is_written_by_the_export,
 }
 """How the `text` blocks begin that nothing printed, and what has to be true of them."""
-
-
-def entry(table: Mapping[tuple[str, str], Entry], block: Block) -> Entry | None:
-    """What a table says of a block."""
-    found = [value for (page, start), value in table.items() if page == block.page and block.text.startswith(start)]
-    return found[0] if found else None
 
 
 def answered(block: Block) -> bool:
@@ -118,14 +96,14 @@ def test_every_page_and_block_is_found() -> None:
         assert len(re.findall("^```", read(page), re.MULTILINE)) == 2 * len(blocks(page))
 
 
-@pytest.mark.parametrize("table", [UNRUN, DRAWINGS], ids=["not run", "drawings"])
+@pytest.mark.parametrize("table", [APART, DRAWINGS], ids=["apart", "drawings"])
 def test_exceptions_are_of_one_block_each(table: Mapping[tuple[str, str], object]) -> None:
     for page, start in table:
         assert [b.page for b in BLOCKS if b.text.startswith(start)].count(page) == 1, (page, start)
 
 
-@pytest.mark.parametrize("block", [b for b in BLOCKS if entry(UNRUN, b)], ids=lambda block: block.place)
-def test_what_is_not_run_could_be(block: Block) -> None:
+@pytest.mark.parametrize("block", [b for b in BLOCKS if entry(APART, b)], ids=lambda block: block.place)
+def test_what_is_not_run_with_its_page_could_be(block: Block) -> None:
     commands.check(block.text)
 
 
@@ -153,13 +131,13 @@ def test_values_fit_their_schemas(block: Block) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("page", [p for p in PAGES if any(is_run(b) and not entry(UNRUN, b) for b in blocks(p))])
+@pytest.mark.parametrize("page", [p for p in PAGES if any(is_run(b) and not entry(APART, b) for b in blocks(p))])
 def test_a_reader_gets_what_the_page_shows(page: str, tmp_path: Path) -> None:
     """All that a page runs, in its order, in one shell, with a new server."""
     if not session.has_curl():
         pytest.skip("no curl of version 7.82 or newer (Debian and Ubuntu: apt install curl)")
     found = blocks(page)
-    runnable = [block for block in found if not entry(UNRUN, block)]
+    runnable = [block for block in found if not entry(APART, block)]
     with serving(CQLTL_WAIT_S="60") if session.needs_server(runnable) else nullcontext() as client:
         printed = session.run(runnable, tmp_path, "" if client is None else str(client.base_url).rstrip("/"))
     assert set(printed) == {block for block in runnable if is_run(block)}

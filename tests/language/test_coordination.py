@@ -26,6 +26,9 @@ def toys() -> Environment:
             "or",
             ["get the ball and put it away", "get the bag and put it away"],
         ),
+        ("bring the ball as well as the orange", "and", ["bring the ball", "bring the orange"]),
+        ("bring the ball along with my orange", "and", ["bring the ball", "bring my orange"]),
+        ("once the ball and the bag are there", "and", ["once the ball is there", "once the bag is there"]),
         ("get the red cylinder and the green ball!", "and", ["get the red cylinder !", "get the green ball !"]),
     ],
 )
@@ -78,6 +81,11 @@ def test_two_groups_are_told_apart_one_after_the_other(toys: Environment) -> Non
             "and(then(pickup(ball), put_in(ball, box)), then(pickup(orange), put_in(orange, box)))",
         ),
         (["repeat(go(ball))", "repeat(go(orange))"], "repeat(and(go(ball), go(orange)))"),
+        (
+            ["until(avoid(go(hall)), put_in(ball, box))", "until(avoid(go(hall)), put_in(orange, box))"],
+            "until(avoid(go(hall)), and(put_in(ball, box), put_in(orange, box)))",
+        ),
+        (["until(go(ball), go(hall))", "until(go(orange), go(hall))"], None),
         (["avoid(go(ball))", "avoid(go(orange))"], None),  # not both, or neither?
         (["put_in(ball, box)", "pickup(orange)"], None),
         (["put_in(ball, box)", "put_in(orange, bag)"], None),  # differs in what is no name of the two

@@ -26,6 +26,13 @@ def correct(text: str, *queries: str) -> list[str]:
         ("keep the oven off", "avoid(switch_off(oven))"),
         ("never leave the oven on", "avoid(switch_off(oven))"),
         ("keep the oven on", "avoid(switch_on(oven))"),
+        ("leave the oven running", "switch_off(oven)"),
+        ("leave the oven off and go to the hall", "and(switch_on(oven), go(hall))"),
+        ("stay away from the oven until the lamp is off", "until(avoid(switch_off(oven)), switch_off(lamp))"),
+        ("you need not switch off the oven", "avoid(switch_off(oven))"),
+        ("bring everything but the bag", "bring(bag)"),
+        ("don't go anywhere but the hall", "avoid(go(hall))"),
+        ("avoid every room except the hall", "avoid(go(any room hall))"),
     ],
 )
 def test_the_contrary_is_not_heard(text: str, query: str) -> None:
@@ -46,6 +53,11 @@ def test_the_contrary_is_not_heard(text: str, query: str) -> None:
         ("visit the hall over and over again", "repeat(go(hall))"),
         ("go to the hall or the lounge", "or(go(hall), go(lounge))"),
         ("visit the hall but not the lounge", "and(go(hall), avoid(go(lounge)))"),
+        ("leave the oven on", "switch_on(oven)"),
+        ("never leave the oven on", "switch_off(oven)"),
+        ("put the oven on the left", "switch_off(oven)"),
+        ("go to the hall, you need not hurry", "go(hall)"),
+        ("visit the hall and the lounge in any order", "and(go(hall), go(lounge))"),
     ],
 )
 def test_what_the_text_says_stays(text: str, query: str) -> None:
@@ -59,6 +71,23 @@ def test_what_the_text_says_stays(text: str, query: str) -> None:
         ("go to the hall again", "repeat(go(hall))", "go(hall)"),
         ("visit all rooms except the hall", "and(go(all rooms), avoid(go(hall)))", "go(all rooms except the hall)"),
         ("put any toy but the bag in it", "and(put(any toy, it), avoid(put(bag, it)))", "put(any toy but the bag, it)"),
+        (
+            "see every room but the hall and my lounge, please",
+            "and(go(every room), avoid(go(hall)), avoid(go(lounge)))",
+            "go(every room but the hall and my lounge)",
+        ),
+        (
+            "patrol all rooms except the hall",
+            "and(repeat(go(all rooms)), avoid(go(hall)))",
+            "repeat(go(all rooms except the hall))",
+        ),
+        (
+            "avoid every room except the hall",
+            "and(avoid(go(every room)), avoid(go(hall)))",
+            "avoid(go(any room except the hall))",
+        ),
+        ("stay out of all rooms", "avoid(go(all rooms))", "avoid(go(any rooms))"),
+        ("go to the hall and the lounge, in that order", "and(go(hall), go(lounge))", "then(go(hall), go(lounge))"),
         ("go to the lounge instead of the hall", "or(go(lounge), go(hall))", "go(lounge)"),
         ("rather than my hall, visit the lounge", "or(go(lounge), go(hall))", "go(lounge)"),
     ],

@@ -30,6 +30,8 @@ def toys() -> Environment:
             "and(pickup(bag), bring(bag, bedroom))",
             "and(pickup(bag from kitchen), bring(bag from kitchen, bedroom))",
         ),
+        ("take the ball that's in the kitchen", "take the ball", "pickup(ball)", "pickup(ball in kitchen)"),
+        ("take the ball that is on my bag", "take the ball", "pickup(ball)", "pickup(ball on bag)"),
         ("take the ball from the kitchen", "take the ball", "pickup(cylinder)", None),
     ],
 )

@@ -294,6 +294,8 @@ def home_module(home):
     [
         ("all toys except the ball", {"toy"}, {"bag_toy", "marble", "orange", "H&M (2nd floor)", "child's_glasses"}),
         ("every toy but any red one", {"toy"}, {"bag_toy", "marble", "orange", "H&M (2nd floor)", "child's_glasses"}),
+        ("every box but the crate and the sack", {"box"}, {"small_red_bucket"}),
+        ("every box but the crate and the spaceship", {"box"}, set()),
         ("all rooms other than my galley", {"cell"}, {"bedroom"}),
         ("any box apart from the crate", {"box"}, {"small_red_bucket", "bag"}),
         ("everything except for the crate", {"box"}, {"small_red_bucket", "bag"}),
