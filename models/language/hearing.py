@@ -18,7 +18,7 @@ from models.language.matching import Matcher, Shelf
 from models.language.reading import SENSELESS, Reading, rank, read
 from models.language.scene import Scene
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
-from models.language.teaching.sources import mistakes_source
+from models.language.teaching.sources import mistakes_source, moves_back
 from models.language.tokens import is_mark, marked_words, words
 from models.language.translation import BEAM_WIDTH, NEGATIONS, Translation, Translator, weighed
 from models.language.trimming import trimmed
@@ -104,14 +104,21 @@ class Lessons:
         named = {said: () if environment is None else mentions(said, environment) for said in spoken}
         found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named.__getitem__)
         return [
-            self._taught(self._without_sources(said, near), least=HEARD_OF_THINGS if named[said] else HEARD)
+            self._taught(self._moved_as_said(said, near), least=HEARD_OF_THINGS if named[said] else HEARD)
             for said, near in zip(spoken, found, strict=True)
         ]
 
-    def _without_sources(self, said: Sequence[str], near: Sequence[Translation]) -> tuple[Translation, ...]:
-        """What moves no thing to where the text says that it is."""
-        sources = self.wordings.sources
-        return tuple(t for t in near if not any(mistakes_source(said, task, sources) for _, task in t.query.tasks))
+    def _moved_as_said(self, said: Sequence[str], near: Sequence[Translation]) -> tuple[Translation, ...]:
+        """What moves no thing to where the text says that it is, and none to what the text moves to it."""
+        sources, moves = self.wordings.sources, self.wordings.moves
+        return tuple(
+            translation
+            for translation in near
+            if not any(
+                mistakes_source(said, task, sources) or moves_back(said, task, moves)
+                for _, task in translation.query.tasks
+            )
+        )
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""

@@ -99,6 +99,8 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
             "F holding(cup) & F at(cup, kitchen)",
         ),
         ("toys", "Fetch the ball from the bedroom", "F holding(sphere)"),
+        ("house", "put the kitchen in the basket", "-"),
+        ("toys", "put the box in the sphere", "-"),
         ("toys", "Take the ball out of the box", "-"),  # it is not there
         ("warehouse", "move the red parcel from shelf B to shelf A", "F in(red_parcel, shelf_a)"),
         (

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from models.errors import CqltlError, Place
-from models.language.teaching.sources import SourceSlot, source_slots
+from models.language.teaching.sources import Move, SourceSlot, moves, source_slots
 from models.language.teaching.utterance import DETERMINERS, Utterance
 from models.language.tokens import words
 from models.language.translation import Translation
@@ -124,13 +124,15 @@ class TaughtTranslator:
     """Each with the words that must stand in a command; the most literal ones first."""
     sources: frozenset[SourceSlot] = frozenset()
     """The arguments that some wording says something else to be in: "unpack {1} from {2}"."""
+    moves: frozenset[Move] = frozenset()
+    """The arguments that some wording says to go to another one: "put {1} in {2}"."""
 
     @classmethod
     def of(cls, utterances: Iterable[Utterance]) -> TaughtTranslator:
         """From utterances; raises as `Wording.of`."""
         kept = sorted(dict.fromkeys(map(Wording.of, utterances)), key=lambda wording: -wording.literal)
         literals = (frozenset(e for e in wording.elements if isinstance(e, str)) for wording in kept)
-        return cls(tuple(zip(kept, literals, strict=True)), source_slots(kept))
+        return cls(tuple(zip(kept, literals, strict=True)), source_slots(kept), moves(kept))
 
     def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
         """As `translate`, of each text."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from models.language.teaching import TaughtTranslator, Utterance
-from models.language.teaching.sources import mistakes_source
+from models.language.teaching.sources import mistakes_source, moves_back
 from models.language.tokens import words
 from models.queries import ContextualQuery
 
@@ -35,3 +35,23 @@ def test_unless_it_was_taught_so() -> None:
     said = words("take the cup out of the crate")
     assert not mistakes_source(said, ContextualQuery("unpack", ("cup", "crate")), taught.sources)
     assert mistakes_source(said, ContextualQuery("store", ("cup", "crate")), taught.sources)
+
+
+@pytest.mark.parametrize(
+    ("text", "back"),
+    [
+        ("put the box in the ball", True),
+        ("shove the box onto my ball", True),
+        ("put the ball in the box", False),
+        ("bring the box, the ball goes in there", False),
+    ],
+)
+def test_what_goes_where_is_as_it_is_said(text: str, back: bool) -> None:
+    taught = TaughtTranslator.of([Utterance.of("put the ball in the box", STORE)])
+    assert taught.moves == {("store", 0, 1)}
+    assert moves_back(words(text), STORE, taught.moves) is back
+
+
+def test_unless_it_was_taught_both_ways() -> None:
+    ways = [Utterance.of(text, STORE) for text in ("put the ball in the box", "set the box on the ball")]
+    assert not moves_back(words("put the box in the ball"), STORE, TaughtTranslator.of(ways).moves)
