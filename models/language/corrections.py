@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 from models.language.exceptions import speaks_for_exception, with_exceptions
 from models.language.tokens import words
@@ -31,6 +32,11 @@ _AWAY = r"(?:stay|staying|keep|keeping|steer) (?:away from|clear of|off|out of)"
 _KEEPING = r"(?P<not>\b(?:never|not|don't|dont) (?:ever )?)?\b(?:keep|keeping|leave|leaving)"
 _KEPT = r"(?:switched |turned )?(?P<how>on|off|running)(?= (?:until|while|when|and|then|for)\b|$)"
 _ORDERED = re.compile(r"\bin (?:that|this|the given|exactly that|exactly this) (?:order|sequence)\b")
+_UNORDERED = re.compile(
+    r"\b(?:any|no particular|no special|whatever|whichever|either) order\b"
+    r"|\border (?:(?:doesn't|does not|dosnt|doesnt) matter|is (?:not important|unimportant|up to you))\b"
+)
+_ORDERING = re.compile(r"\b(?:then|after\w*|before\w*|first|finally|once|last\w*|when)\b")
 _AGAIN = re.compile(r"\b(?:again|once more|one more time)\b")
 _REPEATING = re.compile(
     r"\b(?:again and again|over|keep|keeps|always|forever|for ever|repeat\w*|continu\w*|every|each|loop|patrol\w*"
@@ -40,7 +46,7 @@ _REPEATING = re.compile(
 
 def corrected(text: str, translations: Iterable[Translation]) -> tuple[Translation, ...]:
     """The translations of a text that do not say its contrary; nothing endlessly that it says once more, in the order
-    that it asks for, and what it makes an exception of in the phrase that it is an exception to.
+    that it asks for or in none, and what it makes an exception of in the phrase that it is an exception to.
 
     Raises:
         TextTooLongError: the text is beyond the limits of a command.
@@ -61,7 +67,22 @@ def _put_right(said: str, query: Query) -> Query:
         query = _done_once(query)
     if isinstance(query, Composition) and query.operator is Operator.AND and _ORDERED.search(said):
         query = replace(query, operator=Operator.THEN) if not any(_forbidden(query)) else query
+    if _UNORDERED.search(said) and not _ORDERING.search(said):
+        query = _in_any_order(query)
     return _without_rejected(said, query)
+
+
+def _in_any_order(query: Query) -> Query:
+    """The query without the order of what is to be done, at its root or beside what is forbidden there."""
+    if isinstance(query, ContextualQuery):
+        return query
+    if query.operator is Operator.THEN:
+        return replace(query, operator=Operator.AND)
+    if query.operator is not Operator.AND:
+        return query
+    parts = (_in_any_order(operand) for operand in query.operands)
+    flat = [p.operands if isinstance(p, Composition) and p.operator is Operator.AND else (p,) for p in parts]
+    return replace(query, operands=tuple(chain.from_iterable(flat)))
 
 
 def _is_contrary(said: str, query: Query) -> bool:

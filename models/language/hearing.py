@@ -16,6 +16,7 @@ from models.language.corrections import corrected
 from models.language.formal import is_formal
 from models.language.matching import Matcher, Shelf
 from models.language.reading import SENSELESS, Reading, rank, read
+from models.language.restating import Restated, restated
 from models.language.scene import Scene
 from models.language.teaching import INTERROGATIVES, TaughtTranslator
 from models.language.teaching.sources import mistakes_source, moves_back
@@ -171,11 +172,15 @@ class Hearing:
     def _of_each(
         self, text: str, environment: Environment, found: tuple[Reading, ...], *, candidates: int
     ) -> tuple[Reading, ...]:
-        """The readings of a text, before them what it says of each of the names that are joined in it, or of a thing
-        without where it is, where none of them is as sure.
+        """The readings of a text, before them what it says in other words, of each of the names that are joined in it,
+        or of a thing without where it is, where none of them is as sure.
         """
         best = found[0] if found and not _senseless(found[:1]) else None
-        ways: list[Joined | Located] = [*located(text, environment), *joined(text, environment)]
+        ways: list[Restated | Located | Joined] = [
+            *restated(text),
+            *located(text, environment),
+            *joined(text, environment),
+        ]
         for way in ways:
             if best is not None and best.confidence >= SHARED and not way.tears(best.query):
                 continue

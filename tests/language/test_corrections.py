@@ -58,6 +58,7 @@ def test_the_contrary_is_not_heard(text: str, query: str) -> None:
         ("put the oven on the left", "switch_off(oven)"),
         ("go to the hall, you need not hurry", "go(hall)"),
         ("visit the hall and the lounge in any order", "and(go(hall), go(lounge))"),
+        ("the hall and the park in any order, then the lounge", "then(and(go(hall), go(park)), go(lounge))"),
     ],
 )
 def test_what_the_text_says_stays(text: str, query: str) -> None:
@@ -86,6 +87,12 @@ def test_what_the_text_says_stays(text: str, query: str) -> None:
             "and(avoid(go(every room)), avoid(go(hall)))",
             "avoid(go(any room except the hall))",
         ),
+        (
+            "hall, lounge, any order, just never the park",
+            "and(then(go(hall), go(lounge)), avoid(go(park)))",
+            "and(go(hall), go(lounge), avoid(go(park)))",
+        ),
+        ("hall and lounge, the order does not matter", "then(go(hall), go(lounge))", "and(go(hall), go(lounge))"),
         ("stay out of all rooms", "avoid(go(all rooms))", "avoid(go(any rooms))"),
         ("go to the hall and the lounge, in that order", "and(go(hall), go(lounge))", "then(go(hall), go(lounge))"),
         ("go to the lounge instead of the hall", "or(go(lounge), go(hall))", "go(lounge)"),
