@@ -55,6 +55,8 @@ COMPOSED = 0.4
 
 SHARED = 0.5
 """Confidence from which a reading that does the same to all names that are joined is not doubted."""
+MOST_TEXTS, LONGEST = 12, 40
+"""Most texts that are read besides a command, to understand it; and most words of a command for which any is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -162,15 +164,19 @@ class Hearing:
         Raises:
             TextTooLongError: the text is beyond the limits of a command.
         """
-        if is_formal(text):
-            return ()
-        found = self._as_said(text, environment, candidates=candidates)
-        if environment is None or self.lessons is None:
-            return found
-        return self._of_each(text, environment, found, candidates=candidates)
+        return () if is_formal(text) else self._heard(text, environment, candidates, [MOST_TEXTS])
 
-    def _of_each(
-        self, text: str, environment: Environment, found: tuple[Reading, ...], *, candidates: int
+    def _heard(
+        self, text: str, environment: Environment | None, candidates: int, left: list[int]
+    ) -> tuple[Reading, ...]:
+        """As `readings`; `left` is how many other texts may be read for it."""
+        found = self._as_said(text, environment, candidates=candidates)
+        if environment is None or self.lessons is None or len(words(text)) > LONGEST:
+            return found
+        return self._otherwise_said(text, environment, found, candidates, left)
+
+    def _otherwise_said(
+        self, text: str, environment: Environment, found: tuple[Reading, ...], candidates: int, left: list[int]
     ) -> tuple[Reading, ...]:
         """The readings of a text, before them what it says in other words, of each of the names that are joined in it,
         or of a thing without where it is, where none of them is as sure.
@@ -184,7 +190,10 @@ class Hearing:
         for way in ways:
             if best is not None and best.confidence >= SHARED and not way.tears(best.query):
                 continue
-            parts = [self.readings(part, environment, candidates=1)[:1] for part in way.texts]
+            left[0] -= len(way.texts)
+            if left[0] < 0:
+                break
+            parts = [self._heard(part, environment, 1, left)[:1] for part in way.texts]
             query = None if any(map(_senseless, parts)) else way.put_together([part[0].query for part in parts])
             confidence = min((part[0].confidence for part in parts if part), default=0.0)
             if query is None or (best is not None and confidence <= best.confidence):
