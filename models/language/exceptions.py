@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from models.queries import Composition, ContextualQuery, Operator, Query
 from models.world import Quantifier, quantified
+from models.world.quantifiers import EXCEPTING
 
-_EXCEPT = r"(?:except(?: for)?|but(?: not)?|excluding|apart from|other than|besides|save for)"
+_EXCEPT = rf"(?:{'|'.join(map(re.escape, EXCEPTING))})"
 _ARTICLE = r"(?:the |a |an |my |your |this |that )?"
 _SEVERAL = r"(?:everything|anything|everywhere|anywhere|everyone|anyone|all|every|each|any)"
 _EXCEPTED = re.compile(rf"\b{_SEVERAL}(?: [\w'-]+){{0,6}}? {_EXCEPT} {_ARTICLE}(?P<word>[\w'-]+)")

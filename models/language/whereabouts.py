@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from models.language.coordination import named
+from models.language.restating import Restated
 from models.language.teaching.sources import SOURCES
 from models.language.tokens import marked_words
 from models.queries import Composition, Query
@@ -26,21 +27,11 @@ STANDING = {
 
 
 @dataclass(frozen=True, slots=True)
-class Located:
-    """A command without where a thing is: the text, and the folded words for the thing and for where it is."""
+class Located(Restated):
+    """A command without where a thing is, and the folded words for the thing and for where it is."""
 
-    text: str
     name: tuple[str, ...]
     whereabouts: tuple[str, ...]
-
-    @property
-    def texts(self) -> tuple[str, ...]:
-        """The one text."""
-        return (self.text,)
-
-    def tears(self, _query: Query, /) -> bool:
-        """Never: what is sure of the whole command knows what the place is for."""
-        return False
 
     def put_together(self, queries: Sequence[Query]) -> Query | None:
         """The query of the text with the place put back; None where it does not speak of the thing by its name."""

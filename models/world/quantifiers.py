@@ -59,8 +59,9 @@ def _listed(sayings: dict[Quantifier, str], follows: Words) -> list[tuple[Words,
 
 
 _OPENINGS = sorted([*_listed(_SAYINGS, ()), *_listed(_PRONOUNS, (WHATEVER,))], key=lambda opening: -len(opening[0]))
-_EXCEPTING = "except for; except; but not; but; excluding; apart from; other than; besides; save for"
-_EXCEPT = tuple(tuple(saying.split()) for saying in _EXCEPTING.split(";"))
+EXCEPTING = ("except for", "except", "but not", "but", "excluding", "apart from", "other than", "besides", "save for")
+"""What stands before an exception; what is part of another one comes after it."""
+_EXCEPT = tuple(tuple(saying.split()) for saying in EXCEPTING)
 _FIRST = frozenset(opening[0] for opening, _, _ in _OPENINGS)
 _BEFORE = frozenset(opening for opening, _, follows in _OPENINGS if not follows)
 """What stands before a phrase: all but the pronouns."""
