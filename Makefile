@@ -8,7 +8,7 @@ PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check 
 # so what was compiled has to be kept, also where the environment of whoever calls make says otherwise.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: serve test promises fuzz page-check docs-check setup-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
+.PHONY: serve test promises fuzz page-check docs-check setup-check docker-check training-check wheel wheel-check schemathesis clients check format openapi train evaluate evaluate-human bench bench-reliability bench-load bench-page bench-language bench-teaching bench-planning clean
 
 serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
@@ -32,10 +32,16 @@ page-check: $(VENV)/.dev  # the page in Chromium: what a visitor does, who can u
 	$(BIN)/python -m pytest -m long tests/page
 
 docs-check: $(VENV)/.dev  # all that README.md and docs/*.md tell their readers to type, against servers of their own; a minute
-	$(BIN)/python -m pytest -m 'long or not long' tests/documents --ignore tests/documents/test_setup.py
+	$(BIN)/python -m pytest -m 'long or not long' tests/documents --ignore-glob '*/test_setup.py' --ignore-glob '*/test_docker.py' --ignore-glob '*/test_training.py'
 
 setup-check: $(VENV)/.dev  # what they tell them of setting up, in a new copy with environments of its own; ten minutes
 	$(BIN)/python -m pytest -m long tests/documents/test_setup.py
+
+docker-check: $(VENV)/.dev  # what they tell them of Docker, where there is Docker with Compose; ten minutes
+	$(BIN)/python -m pytest -m long -rs tests/documents/test_docker.py
+
+training-check: $(VENV)/.dev  # what they tell them of training and measuring networks, with little of everything; half an hour
+	$(BIN)/python -m pytest -m long tests/documents/test_training.py
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml
 	$(BIN)/python -m pytest -m long tests/service/http/test_schemathesis.py

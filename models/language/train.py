@@ -6,6 +6,7 @@
     python -m models.language.train composition --member 1 --device cuda   one of them, on a GPU
     python -m models.language.train matching
     python -m models.language.train paper --domain navigation --hide 0.25 --output FOLDER
+    python -m models.language.train --quick --output FOLDER              a few texts once, to see that it works
 
 Writes, into the output folder, for each model `NAME.safetensors` (the tensors) and `NAME.json` (vocabulary, sizes,
 hyper-parameters), and the training curves. Several networks are trained side by side, in as many processes as there are
@@ -41,6 +42,7 @@ from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
 from models.language.matching.model import save_model as save_model_of_matching
+from models.language.quick import QUICK, quick
 from models.language.spans import DEFAULT_NAME, save_model
 from models.language.spans import training as spans
 from models.language.spans.lessons import Lessons
@@ -50,6 +52,8 @@ REFUSED = 2_000
 """Texts without a task that the matching network is shown."""
 HELD_OUT = 6
 """Every so many-th task class is not fitted to: the matching network is calibrated on these."""
+QUICK_SHARE, QUICK_STEPS = 0.01, 10
+"""Of a quick run: part of the texts of its one epoch, and steps of the matching network."""
 SHIPPED = Path(__file__).parent / "weights"
 
 
@@ -89,7 +93,7 @@ def _parts(options: argparse.Namespace) -> Sequence[Callable[[], object]]:
         settings = _copynet_settings(options)
         parts += [partial(copynet.train_paper, (domain,), settings, log=print, **common) for domain in domains]
     if "matching" in asked:
-        parts.append(partial(train_matching, matching.Settings(), **common))
+        parts.append(partial(train_matching, _matching_settings(options), **common))
     return parts
 
 
@@ -169,6 +173,10 @@ def _chosen(usual: spans.Settings, options: argparse.Namespace) -> spans.Setting
     return replace(usual, epochs=epochs, share=options.share)
 
 
+def _matching_settings(options: argparse.Namespace) -> matching.Settings:
+    return replace(matching.Settings(), steps=QUICK_STEPS) if options.quick else matching.Settings()
+
+
 def _copynet_settings(options: argparse.Namespace) -> copynet.Settings:
     usual = copynet.Settings()
     chosen = {name: getattr(options, name) for name in ("epochs", "hide") if getattr(options, name) is not None}
@@ -190,7 +198,11 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--domain", choices=[*Domain, "both"], default="both", help="paper: which T to train on")
     parser.add_argument("--hide", type=float, help="paper: part of the words that are shown as unknown words")
     parser.add_argument("--generate", action="store_true", help="paper: let arguments be generated, not only copied")
-    return parser.parse_args(arguments)
+    parser.add_argument("--quick", action="store_true", default=quick(), help=QUICK)
+    options = parser.parse_args(arguments)
+    if options.quick:
+        options.epochs, options.share = 1 if options.epochs is None else options.epochs, min(options.share, QUICK_SHARE)
+    return options
 
 
 if __name__ == "__main__":

@@ -37,7 +37,8 @@ def open_engine(url: str, *, max_bytes: int = 0) -> Engine:
             pool_pre_ping=True,
             pool_size=POOL,
             max_overflow=POOL,
-            connect_args={"connect_timeout": CONNECT_TIMEOUT_S},
+            # Whatever the database is in: of one in SQL_ASCII the driver would give bytes for every text.
+            connect_args={"connect_timeout": CONNECT_TIMEOUT_S, "client_encoding": "utf8"},
         )
     if parsed.get_backend_name() != "sqlite":
         return create_engine(parsed)

@@ -36,6 +36,7 @@ def check_store(url: str, known: Collection[str], *, whole: bool = False) -> Non
     """
     if is_postgresql(url):
         with opened(url) as connection:
+            _check_encoding(shown(url), str(connection.scalar(text("SHOW server_encoding"))))
             tables = set(inspect(connection).get_table_names())
             revision = _revision(connection, tables)
         _check_tables(shown(url), tables & TABLES, revision, known)  # it may hold other things too
@@ -119,6 +120,17 @@ def _revision(connection: Connection, tables: Collection[str]) -> str | None:
         return None
     found = connection.scalar(text("SELECT version_num FROM alembic_version"))
     return None if found is None else str(found)
+
+
+def _check_encoding(place: str, encoding: str) -> None:
+    """PostgreSQL checks and compares texts, JSON among them, as its encoding says; what a new server has is not UTF8
+    where it was set up without a locale.
+    """
+    if encoding != "UTF8":
+        raise UnusableStoreError(
+            f"{place} is in the encoding {encoding}, not UTF8: take a database that was made with "
+            "CREATE DATABASE ... ENCODING 'UTF8' TEMPLATE template0"
+        )
 
 
 def _check_tables(place: str, tables: set[str], revision: str | None, known: Collection[str]) -> None:

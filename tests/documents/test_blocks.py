@@ -1,4 +1,4 @@
-"""Every code block of README.md and docs/*.md is executed; `unrun.py` names those that are not run with their page."""
+"""Every code block of README.md and docs/*.md is executed; `apart.py` names those that are not run with their page."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from models.queries import parse_query
 from models.world import builtin_environments, compile_world, load_environment
 from service.http import schemas
 from tests.documents import commands, session
+from tests.documents.apart import APART, entry
 from tests.documents.blocks import PAGES, ROOT, Block, blocks, indented, read
-from tests.documents.unrun import APART, entry
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
 LANGUAGES = {"sh", "yaml", "python", "prism", "json", "text", "ltl", "query"}

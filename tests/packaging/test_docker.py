@@ -1,4 +1,4 @@
-"""What docker/ says of the code is true. The images are not built here: that needs Docker."""
+"""What docker/ says of the code is true. The images are not built here, which needs Docker: `make docker-check`."""
 
 from __future__ import annotations
 
@@ -83,9 +83,26 @@ def test_the_entry_point_copies_what_was_compiled_and_becomes_cqltl(tmp_path: Pa
     assert (process.returncode, said) == (0, f"worker --queues plan in {process.pid}\n")
 
 
-def test_the_proxy_reads_its_configuration() -> None:
-    haproxy = shutil.which("haproxy")
-    if haproxy is None:
+def haproxy() -> str:
+    found = shutil.which("haproxy")
+    if found is None:
         pytest.skip("no haproxy to read docker/haproxy.cfg (Debian and Ubuntu: apt install haproxy)")
-    result = subprocess.run([haproxy, "-c", "-f", DOCKER / "haproxy.cfg"], capture_output=True, text=True, check=False)
+    return found
+
+
+def test_the_proxy_reads_its_configuration() -> None:
+    result = subprocess.run(
+        [haproxy(), "-c", "-f", DOCKER / "haproxy.cfg"], capture_output=True, text=True, check=False
+    )
     assert result.returncode == 0, result.stderr
+
+
+def test_the_proxy_starts_where_few_files_may_be_open(tmp_path: Path) -> None:
+    """It takes as many connections as it can then."""
+    file = tmp_path / "haproxy.cfg"
+    text = (DOCKER / "haproxy.cfg").read_text(encoding="utf-8")
+    file.write_text(text.replace("bind :8000", f"bind {tmp_path}/socket"))  # no port of this machine
+    command = f"ulimit -n 1000 && exec timeout 2 {haproxy()} -d -f {file}"
+    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert result.returncode == 124, result.stderr  # it ran until it was stopped
+    assert "ALERT" not in result.stderr

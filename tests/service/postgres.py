@@ -69,11 +69,11 @@ class Postgres:
         assert all(gone_within(number, 10) for number in found)
         lock.unlink()  # it may name a process that is dead and not yet buried
 
-    def database(self) -> str:
-        """The SQLAlchemy URL of a new database."""
+    def database(self, options: str = "") -> str:
+        """The SQLAlchemy URL of a new database, made with some options."""
         name = f"cqltl{next(self._numbers)}"
         with psycopg.connect(f"postgresql://cqltl@127.0.0.1:{self._port}/postgres", autocommit=True) as connection:
-            connection.execute(f"CREATE DATABASE {name}")  # type: ignore[arg-type]
+            connection.execute(f"CREATE DATABASE {name} {options}")  # type: ignore[arg-type]
         return f"postgresql+psycopg://cqltl@127.0.0.1:{self._port}/{name}"
 
     def stop(self) -> None:

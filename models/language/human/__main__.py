@@ -26,6 +26,7 @@ from models.language.human.data import HumanDataError
 from models.language.human.evaluation import PARTS, Extent, commands_part, record, utterances_part
 from models.language.human.system import Plan
 from models.language.human.tables import human_table, write_table
+from models.language.quick import QUICK, quick
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -44,8 +45,8 @@ def _measure(results: dict[str, Any], options: argparse.Namespace) -> None:
     """Measure some parts, and write the results after each, of Lang2LTL after each seed."""
     extent = Extent(seeds=tuple(options.seeds))
     if options.quick:
-        quick = replace(extent.plan.settings, epochs=1)
-        extent = Extent(seeds=(0,), plan=Plan(settings=quick, drawn=200), splits=1, tested=50)
+        plan = Plan(settings=replace(extent.plan.settings, epochs=1), drawn=200)
+        extent = Extent(seeds=(0,), plan=plan, splits=1, tested=50)
     began = time.monotonic()
 
     def log(message: str) -> None:
@@ -71,7 +72,7 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--data", type=Path, help="folder with the published files")
     parser.add_argument("--only", choices=PARTS, help="measure one part; what there is of the others stays")
     parser.add_argument("--seeds", type=int, nargs="+", default=list(Extent().seeds), help="seeds of random splits")
-    parser.add_argument("--quick", action="store_true", help="a tiny run to see that everything works")
+    parser.add_argument("--quick", action="store_true", default=quick(), help=QUICK)
     parser.add_argument("--report", action="store_true", help="measure nothing: the table of the results")
     parser.add_argument("--output", type=Path, help="file of results; docs/experiments/human.json if not given")
     parser.add_argument("--page", type=Path, help="page with the table; docs/experiments.md if not given")

@@ -171,6 +171,13 @@ def test_postgresql_that_another_migrates_while_it_is_looked_at(postgres: Postgr
     check_store(url, known)
 
 
+@pytest.mark.parametrize("encoding", ["SQL_ASCII", "LATIN1"])
+def test_postgresql_in_another_encoding(postgres: Postgres, encoding: str) -> None:
+    url = postgres.database(f"ENCODING '{encoding}' TEMPLATE template0")
+    with pytest.raises(UnusableStoreError, match=f"{encoding}, not UTF8"):
+        migrate(url)
+
+
 def test_postgresql_that_is_not_there() -> None:
     with pytest.raises(UnusableStoreError, match=r"127\.0\.0\.1") as caught:
         migrate("postgresql+psycopg://someone:secret@127.0.0.1:9/none")
