@@ -40,7 +40,7 @@ setup-check: $(VENV)/.dev  # what they tell them of setting up, in a new copy wi
 docker-check: $(VENV)/.dev  # what they tell them of Docker, where there is Docker with Compose; ten minutes
 	$(BIN)/python -m pytest -m long -rs tests/documents/test_docker.py
 
-training-check: $(VENV)/.dev  # what they tell them of training and measuring networks, with little of everything; half an hour
+training-check: $(VENV)/.dev  # what they tell them of training and measuring networks, with little of everything; quarter of an hour
 	$(BIN)/python -m pytest -m long tests/documents/test_training.py
 
 schemathesis: $(VENV)/.dev  # ten minutes, or CQLTL_SCHEMATHESIS_S seconds, of requests made up from openapi.yaml

@@ -1,5 +1,5 @@
 """What the pages say of training and measuring networks is run, word for word, in a new copy of the repository
-(`make training-check`; half an hour). CQLTL_QUICK has one epoch instead of many and a few commands instead of all, so
+(`make training-check`; a quarter of an hour). CQLTL_QUICK has one epoch instead of many and a few commands instead of all, so
 what is made and measured has no meaning; that there is something, and where, does.
 """
 
