@@ -63,14 +63,14 @@ format: $(VENV)/.dev
 openapi: $(VENV)/.dev
 	$(BIN)/cqltl openapi --output openapi.yaml
 
-train: $(VENV)/.dev
-	$(BIN)/python -m models.language.train
+train: $(VENV)/.dev  # this and the next two: OPTIONS=--quick for a tiny run, to see that everything works
+	$(BIN)/python -m models.language.train $(OPTIONS)
 
 evaluate: $(VENV)/.dev
-	$(BIN)/python -m models.language.evaluate
+	$(BIN)/python -m models.language.evaluate $(OPTIONS)
 
 evaluate-human: $(VENV)/.dev  # commands that people wrote: DATA is the folder with the published files
-	$(BIN)/python -m models.language.human --data '$(DATA)'
+	$(BIN)/python -m models.language.human --data '$(DATA)' $(OPTIONS)
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.table2

@@ -32,7 +32,6 @@ from models.language.experiments import (
     write_page,
     write_results,
 )
-from models.language.quick import QUICK, quick
 
 PARTS = ("paper", "default")
 
@@ -80,7 +79,7 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--only", choices=PARTS, help="measure one part; what there is of the other stays")
     parser.add_argument("--seeds", type=int, nargs="+", default=list(Settings().seeds), help="seeds of training")
     parser.add_argument("--most", type=int, help="commands of each task class of S and U; all if not given")
-    parser.add_argument("--quick", action="store_true", default=quick(), help=QUICK)
+    parser.add_argument("--quick", action="store_true", help="a tiny run to see that everything works")
     parser.add_argument("--report", action="store_true", help="measure nothing: figures and tables of the results")
     parser.add_argument("--runs", type=Path, help="folder of trained runs; build/experiments if not given")
     parser.add_argument("--output", type=Path, help="folder of results and figures; docs/experiments if not given")

@@ -42,7 +42,6 @@ from models.language.matching import training as matching
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
 from models.language.matching.model import save_model as save_model_of_matching
-from models.language.quick import QUICK, quick
 from models.language.spans import DEFAULT_NAME, save_model
 from models.language.spans import training as spans
 from models.language.spans.lessons import Lessons
@@ -198,7 +197,7 @@ def _read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--domain", choices=[*Domain, "both"], default="both", help="paper: which T to train on")
     parser.add_argument("--hide", type=float, help="paper: part of the words that are shown as unknown words")
     parser.add_argument("--generate", action="store_true", help="paper: let arguments be generated, not only copied")
-    parser.add_argument("--quick", action="store_true", default=quick(), help=QUICK)
+    parser.add_argument("--quick", action="store_true", help="a tiny run to see that everything works")
     options = parser.parse_args(arguments)
     if options.quick:
         options.epochs, options.share = 1 if options.epochs is None else options.epochs, min(options.share, QUICK_SHARE)
