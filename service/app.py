@@ -124,7 +124,7 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         await run_sync(translators.queries, DEFAULT)
         await tasks[0]
         store = Store(settings.url, max_bytes=settings.max_store_bytes)
-        executor = _executor(settings, store, workers, queue=warm)
+        executor = _executor(settings, store, workers, app.state.closing, queue=warm)
         services = Services(
             settings=settings,
             store=store,
@@ -164,13 +164,13 @@ async def _seed(services: Services) -> None:
         raise
 
 
-def _executor(settings: Settings, store: Store, workers: Workers, *, queue: bool) -> Executor:
+def _executor(settings: Settings, store: Store, workers: Workers, closing: threading.Event, *, queue: bool) -> Executor:
     """On PostgreSQL the workers plan that are there for it, unless the app is for a single request."""
     if not (queue and is_postgresql(settings.url)):
-        return EmbeddedExecutor(store, workers, settings)
+        return EmbeddedExecutor(store, workers, settings, closing)
     from service.jobs.queue import QueueExecutor
 
-    return QueueExecutor(store, settings)
+    return QueueExecutor(store, settings, closing)
 
 
 def _warm(app: FastAPI, services: Services) -> None:

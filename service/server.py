@@ -25,11 +25,11 @@ cqltl serves {url}  (open it in a browser; documentation: {url}/docs; store: {st
 
 
 GRACE_S = 3
-"""Seconds that requests get to end where the service stops; a plan that is waited for is then broken off."""
+"""Seconds that requests get to end where the service stops; those that wait for a plan are told at once of its job."""
 
 
 class _Server(uvicorn.Server):
-    """Says where it listens once it does, and tells open streams when it is about to stop."""
+    """Says where it listens once it does, and tells streams and those who wait when it is about to stop."""
 
     def __init__(self, config: uvicorn.Config, said: str, closing: threading.Event) -> None:
         super().__init__(config)

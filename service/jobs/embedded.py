@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import threading
 import time
 
 from anyio.to_thread import run_sync
@@ -33,8 +34,8 @@ class EmbeddedExecutor(Executor):
     Several services on one store take up what one of them leaves: none runs what another holds a lease on.
     """
 
-    def __init__(self, store: Store, workers: Workers, settings: Settings) -> None:
-        super().__init__(store, settings)
+    def __init__(self, store: Store, workers: Workers, settings: Settings, closing: threading.Event) -> None:
+        super().__init__(store, settings, closing)
         self._workers = workers
         self._runner = JobRunner(store, workers, lease_s=settings.job_lease_s)
         self._keeper: asyncio.Task[None] | None = None
@@ -62,8 +63,7 @@ class EmbeddedExecutor(Executor):
             return await self._plan_as_job(commission, wait_s, once)
         call = self._runner.begin(commission)
         waiting = asyncio.ensure_future(answer_of(call, commission))
-        done, _ = await asyncio.wait({waiting}, timeout=wait_s)
-        if done:
+        if await self._done(waiting, wait_s):
             answer = waiting.result()
             policy = policy_of(commission, answer)
             if policy is not None:
@@ -93,7 +93,9 @@ class EmbeddedExecutor(Executor):
     async def ended(self, job_id: str, within_s: float) -> StoredJob:
         """Without asking the store meanwhile where the job runs here."""
         started = time.monotonic()
-        await self._runner.ended(job_id, within_s)
+        ending = asyncio.ensure_future(self._runner.ended(job_id))
+        if not await self._done(ending, within_s):
+            ending.cancel()
         return await super().ended(job_id, within_s - (time.monotonic() - started))
 
     def _enqueue(self, transaction: Transaction, job_id: str, queue: str) -> None:

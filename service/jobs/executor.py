@@ -7,9 +7,11 @@ stored job holds all that it takes to plan, so any process may take it up.
 from __future__ import annotations
 
 import asyncio
+import threading
 import time
 from abc import ABC, abstractmethod
 from functools import partial
+from typing import Any
 
 from anyio.to_thread import run_sync
 
@@ -26,10 +28,10 @@ FIRST_LOOK_S, LONGEST_LOOK_S = 0.005, 0.2
 
 
 class Executor(ABC):
-    """Has plans made."""
+    """Has plans made. All waits end when `closing` is set, as if their time were up: the service stops."""
 
-    def __init__(self, store: Store, settings: Settings) -> None:
-        self._store, self._settings = store, settings
+    def __init__(self, store: Store, settings: Settings, closing: threading.Event) -> None:
+        self._store, self._settings, self._closing = store, settings, closing
 
     @abstractmethod
     async def start(self, *, take_up: bool) -> None:
@@ -71,13 +73,22 @@ class Executor(ABC):
         while True:
             job = await run_sync(self._get, job_id)
             left = until - time.monotonic()
-            if job.ended or left <= 0:
+            if job.ended or left <= 0 or self._closing.is_set():
                 break
             await asyncio.sleep(min(pause, left))
             pause = min(LONGEST_LOOK_S, 1.3 * pause)
         if not job.ended and not job.accepted:
             await run_sync(self._accept, job_id)
         return job
+
+    async def _done(self, waited: asyncio.Future[Any], within_s: float) -> bool:
+        """Whether something is done before the time is up."""
+        until = time.monotonic() + within_s
+        while not self._closing.is_set() and (left := until - time.monotonic()) > 0:
+            done, _ = await asyncio.wait({waited}, timeout=min(LONGEST_LOOK_S, left))
+            if done:
+                return True
+        return False
 
     @abstractmethod
     def _enqueue(self, transaction: Transaction, job_id: str, queue: str) -> None:

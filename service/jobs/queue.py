@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import threading
 import time
 from functools import lru_cache
 
@@ -90,8 +91,8 @@ def sweep(store: Store) -> None:
 class QueueExecutor(Executor):
     """Puts plans into the queue, and waits for workers to make them; keeps nothing itself."""
 
-    def __init__(self, store: Store, settings: Settings) -> None:
-        super().__init__(store, settings)
+    def __init__(self, store: Store, settings: Settings, closing: threading.Event) -> None:
+        super().__init__(store, settings, closing)
         self._keeper: asyncio.Task[None] | None = None
         self._deletions: set[asyncio.Task[None]] = set()
 

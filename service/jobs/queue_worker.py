@@ -127,7 +127,7 @@ class _QueueWorker:
             return
         if job is not None:
             self._runner.run(job)
-            await self._runner.ended(job_id, None)
+            await self._runner.ended(job_id)
 
     def _claim(self, job_id: str) -> StoredJob | None:
         with self._store.write(exclusive=False) as transaction:

@@ -9,7 +9,6 @@ import math
 import time
 import uuid
 from collections.abc import Callable, Coroutine
-from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any, TypeVar
 
@@ -111,11 +110,10 @@ class JobRunner:
         if job_id in self._followed:
             self._followed[job_id].call.cancel()
 
-    async def ended(self, job_id: str, within_s: float | None) -> None:
-        """Wait for a job of this process to end, so long at most, or as long as it takes."""
+    async def ended(self, job_id: str) -> None:
+        """Wait for a job of this process to end."""
         if job_id in self._followed:
-            with suppress(TimeoutError):
-                await asyncio.wait_for(self._followed[job_id].ended.wait(), within_s)
+            await self._followed[job_id].ended.wait()
 
     async def blocking(self, function: Callable[[], T]) -> T:
         """Ask the store, in a thread that requests cannot keep busy."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,7 +71,7 @@ def services(tmp_path: Path, network: Said, ltl: Formulas) -> Iterator[Services]
             transaction.templates.put(stored)
     translators = Translators({"default": lambda: network, "cq-copynet": lambda: network}, {"ltl-copynet": lambda: ltl})
     workers = Workers(planners=1, max_waiting=0)
-    jobs = EmbeddedExecutor(store, workers, settings)
+    jobs = EmbeddedExecutor(store, workers, settings, threading.Event())
     yield Services(settings=settings, store=store, workers=workers, jobs=jobs, translators=translators)
     store.close()
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import signal
 import statistics
 import time
@@ -165,12 +164,11 @@ def test_what_is_open_does_not_keep_a_service_from_stopping(deploy: Deploy) -> N
     url = order(deployment.client, ENDLESS)
     time.sleep(2)  # it loads for a while after it has begun to listen
 
-    def wait_for_a_plan() -> None:
-        with contextlib.suppress(httpx.HTTPError):
-            deployment.client.post("/plan", json=ENDLESS, headers={"Prefer": "wait=60"})
+    def wait_for_a_plan() -> httpx.Response:
+        return deployment.client.post("/plan", json=ENDLESS, headers={"Prefer": "wait=60"})
 
     with ThreadPoolExecutor(1) as others, deployment.client.stream("GET", f"{url}/events") as response:
-        others.submit(wait_for_a_plan)
+        waiting = others.submit(wait_for_a_plan)
         lines = response.iter_lines()
         assert "retry: 1000" in [next(lines) for _ in range(3)]
         began = time.monotonic()
@@ -178,7 +176,11 @@ def test_what_is_open_does_not_keep_a_service_from_stopping(deploy: Deploy) -> N
         for _ in lines:
             pass  # it ends; the client would come back after a second
         deployment.server.wait(10)
+        told = waiting.result()
     assert time.monotonic() - began < 5
+    assert told.status_code == 202, "the plan has become a job, which another service or worker takes up"
+    again = deployment.connect(deployment.serve())
+    assert again.get(told.headers["location"]).json()["state"] in ("queued", "running")
 
 
 @pytest.mark.long
