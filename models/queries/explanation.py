@@ -26,6 +26,10 @@ from models.world.wording import fill, needs_article, spoken_symbol, without_art
 MAX_WORDS = 500
 """Most characters of the words for a task."""
 _SLOT = re.compile(r"\{([^{}]*)\}")
+_VERB = re.compile(r"(\{(\d+)\}) ([a-z]+s)\b")
+"""The word behind a slot that may be a verb of one thing: "{1} is", "{1} ends up"."""
+_PLURALS = {"is": "are", "was": "were", "has": "have", "does": "do", "goes": "go"}
+_NO_VERBS = frozenset({"always", "sometimes", "as", "this", "its", "towards", "upwards", "perhaps"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +137,18 @@ def _filled(words: str, task: ContextualQuery, bindings: Sequence[Binding], envi
     names = {str(place): _as_said(phrase) for place, phrase in enumerate(task.arguments, start=1)}
     if environment is not None:
         names |= {str(binding.position): _bound(binding, environment) for binding in bindings}
-    return Said(fill(words, names), _level(words))
+    several = {str(found.position) for found in bindings if found.quantifier is Quantifier.ALL and found.candidates[1:]}
+    agreed = _VERB.sub(lambda slot: f"{slot[1]} {_of_several(slot[3])}" if slot[2] in several else slot[0], words)
+    return Said(fill(agreed, names), _level(words))
+
+
+def _of_several(verb: str) -> str:
+    """A verb of one thing, as it is said of several; other words stay as they are."""
+    if verb in _PLURALS or verb in _NO_VERBS or verb.endswith("ss"):
+        return _PLURALS.get(verb, verb)
+    if verb.endswith("ies"):
+        return f"{verb[:-3]}y"
+    return verb[:-2] if verb.endswith(("shes", "ches", "sses", "xes")) else verb[:-1]
 
 
 def _bound(binding: Binding, environment: Environment) -> tuple[str, bool]:

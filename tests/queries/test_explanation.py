@@ -93,6 +93,22 @@ def test_words_that_were_taught(toys: Environment, templates: dict[str, Template
 
 
 @pytest.mark.parametrize(
+    ("words", "query", "said"),
+    [
+        ("the {1} ends up in the {2}", "store(every toy, box)", "the cylinder and the cube end up in the box"),
+        ("the {1} ends up in the {2}", "store(any toy, box)", "the cylinder or the cube ends up in the box"),
+        ("{1} is always near {2}", "store(every toy, box)", "the cylinder and the cube are always near the box"),
+        ("{1} carries what {2} has", "store(every toy, box)", "the cylinder and the cube carry what the box has"),
+        ("{1} reaches {2}", "store(every toy, box)", "the cylinder and the cube reach the box"),
+    ],
+)
+def test_verbs_agree_with_several_things(templates: dict[str, Template], words: str, query: str, said: str) -> None:
+    """Where the verb follows at once."""
+    world = load_environment(toys_spec(toys=[("cylinder", "red"), ("cube", "red")]))
+    assert explain_query(grounded(query, templates, world), {"store": words}, world).explanation == said
+
+
+@pytest.mark.parametrize(
     "query",
     ["then(go(kitchen), go(bedroom))", "and(go(kitchen), avoid(tour(kitchen, bedroom)))", "repeat(go(bedroom))"],
 )
