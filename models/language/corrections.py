@@ -37,7 +37,14 @@ _UNORDERED = re.compile(
     r"|\border (?:(?:doesn't|does not|dosnt|doesnt) matter|is (?:not important|unimportant|up to you))\b"
 )
 _ORDERING = re.compile(r"\b(?:then|after\w*|before\w*|first|finally|once|last\w*|when)\b")
-_AGAIN = re.compile(r"\b(?:again|once more|one more time)\b")
+_AGAIN = re.compile(r"\b(?:again|once more|one more time|at least once|round trip|and back$)")
+_RETURNING = r"(?:back (?:to|at|in)|return(?:ing)? to)"
+_ORDER = r"(?:please )?(?:put|pick|take|bring|go|get|fetch|move|switch|turn|visit)"
+_NEGATION = r"(?:not|no|never|don't|dont|without|avoid|nor|neither|keep|stay)"
+_REJECTED_LAST = re.compile(
+    rf"{_ORDER}(?: (?!{_NEGATION}\b)[\w'-]+)+ not (?:the|a|an|my|in|into|to|on|at)\b(?! {_NEGATION}\b).*"
+)
+"""An order, and at its end what it is not about: "put the cup in the basket, not the towel"."""
 _REPEATING = re.compile(
     r"\b(?:again and again|over|keep|keeps|always|forever|for ever|repeat\w*|continu\w*|every|each|loop|patrol\w*"
     r"|back and forth|constantly|regularly|alternat\w*|between|endless\w*|never stop|nonstop|non-stop|times)\b"
@@ -65,8 +72,13 @@ def _put_right(said: str, query: Query) -> Query:
         return query
     if _AGAIN.search(said) and not _REPEATING.search(said):
         query = _done_once(query)
-    if isinstance(query, Composition) and query.operator is Operator.AND and _ORDERED.search(said):
+    if (
+        isinstance(query, Composition)
+        and query.operator is Operator.AND
+        and (_ORDERED.search(said) or _returns(said, query.operands[-1]))
+    ):
         query = replace(query, operator=Operator.THEN) if not any(_forbidden(query)) else query
+    query = _not_done_to(said, query)
     if _UNORDERED.search(said) and not _ORDERING.search(said):
         query = _in_any_order(query)
     return _without_rejected(said, query)
@@ -88,6 +100,10 @@ def _in_any_order(query: Query) -> Query:
 def _is_contrary(said: str, query: Query) -> bool:
     """Whether a query says the contrary of a text in one of its parts."""
     forbidden = {id(task) for task in _forbidden(query)}
+    if _turns_round(said, query) or (
+        isinstance(query, Composition) and query.operator is Operator.AVOID and _REJECTED_LAST.fullmatch(said)
+    ):
+        return True
     if forbidden and re.search(rf"\b{EXCUSED}\b", said) and isinstance(query, Composition):
         return query.operator is Operator.AVOID
     return any(
@@ -96,6 +112,38 @@ def _is_contrary(said: str, query: Query) -> bool:
         or _changes_kept(said, task, forbids=id(task) in forbidden)
         for _, task in query.tasks
     )
+
+
+def _not_done_to(said: str, query: Query) -> Query:
+    """The query with what a text says at its end not to do it to, in place of not going there: "pick up the cup, not
+    the towel".
+    """
+    match query:
+        case Composition(
+            Operator.AND,
+            (ContextualQuery() as done, Composition(Operator.AVOID, (ContextualQuery("move_to", (name,)),)) as avoided),
+        ) if done.arguments and re.search(rf" not{ARTICLE} {re.escape(name)}(?: please)?$", said):
+            other = replace(done, arguments=(name, *done.arguments[1:]))
+            return replace(query, operands=(done, replace(avoided, operands=(other,))))
+    return query
+
+
+def _returns(said: str, last: Query) -> bool:
+    """Whether a query that ends with going somewhere is of a text that says to come back to there."""
+    if not isinstance(last, ContextualQuery) or len(last.arguments) != 1:
+        return False
+    return re.search(rf"\b{_RETURNING}{ARTICLE} {re.escape(last.arguments[0])}\b", said) is not None
+
+
+def _turns_round(said: str, query: Query) -> bool:
+    """Whether a query does first what "before", at the beginning of a text, says to come later."""
+    if not said.startswith("before ") or not isinstance(query, Composition) or query.operator is not Operator.THEN:
+        return False
+    first, then = (
+        [said.find(phrase) for _, task in operand.tasks for phrase in task.arguments]
+        for operand in (query.operands[0], query.operands[-1])
+    )
+    return bool(first and then) and min(first) >= 0 and max(first) < min(then)
 
 
 def _forbidden(query: Query) -> Iterator[ContextualQuery]:

@@ -181,13 +181,16 @@ class Hearing:
         """The readings of a text, before them what it says in other words, of each of the names that are joined in it,
         or of a thing without where it is, where none of them is as sure.
         """
+        assert self.lessons is not None
         best = found[0] if found and not _senseless(found[:1]) else None
+        taught = bool(self.lessons.wordings.translate(text, candidates=1))
         ways: list[Restated | Located | Joined] = [
-            *restated(text),
+            *(way for way in restated(text) if not (taught and way.mistaken)),
             *located(text, environment),
             *joined(text, environment),
         ]
         for way in ways:
+            mistaken = isinstance(way, Restated) and way.mistaken
             if best is not None and best.confidence >= SHARED and not way.tears(best.query):
                 continue
             left[0] -= len(way.texts)
@@ -196,12 +199,14 @@ class Hearing:
             parts = [self._heard(part, environment, 1, left)[:1] for part in way.texts]
             query = None if any(map(_senseless, parts)) else way.put_together([part[0].query for part in parts])
             confidence = min((part[0].confidence for part in parts if part), default=0.0)
-            if query is None or (best is not None and confidence <= best.confidence):
+            if query is None or (best is not None and confidence <= best.confidence and not mistaken):
                 continue
             right = corrected(text, [Translation(query, confidence)])
             first = read(right, Scene(text, environment, self.template_of))
             if not first or (found and _senseless(first)):
                 continue
+            if mistaken:
+                return first[:candidates]
             rest = [replace(r, confidence=(1.0 - confidence) * r.confidence) for r in found if r.query != query]
             return (*first, *rest)[:candidates]
         return found

@@ -1,10 +1,14 @@
-"""Long ways to say what the networks know in a short one: "under no circumstances" is "never"."""
+"""Ways to say in other words, which the networks know, what they do not know, or mistake.
+
+"Under no circumstances" is "never". "Hands off the cup" they take for picking it up, and what is said last and to be
+done first ("...; before that, ...", "... on the way back from the zoo") for the order in which it is said.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from models.queries import Query
 
@@ -13,6 +17,47 @@ _NEVER = re.compile(
     r"|(?:don['’]t|dont|do not)(?: you)? ever)\b",
     re.IGNORECASE,
 )
+_END = r"(?:,? please)?[ .!]*$"
+_ON = r"(?:should|must|may|shall|can|is to|are to|has to|have to)"
+_MISTAKEN = tuple(
+    (re.compile(pattern, re.IGNORECASE), words)
+    for pattern, words in (
+        (r"\b(?:keep (?:your |those |the )?)?hands off (?:of )?(?=the |my |that |this |those )", "never pick up "),
+        (r"\blast,? but (?:certainly |definitely )?not least,?", "finally"),
+        (
+            rf"^(?P<do>.+?),? on (?:the|your) way (?:back |home )+from (?P<off>[^,.;]+?){_END}",
+            r"go to \g<off>, then \g<do>",
+        ),
+        (r"^on (?:the|your) way (?:back |home )+from (?P<off>[^,.;]+), (?P<do>.+)", r"go to \g<off>, then \g<do>"),
+        (rf"^(?P<do>[^,.;]+?) on (?:the|your) way to (?P<to>[^,.;]+?){_END}", r"\g<do>, then go to \g<to>"),
+        (r"^on (?:the|your) way to (?P<to>[^,.;]+), (?P<do>[^,.;]+)", r"\g<do>, then go to \g<to>"),
+        (
+            r"^(?:(?:last of all|finally|lastly),? )?(?P<last>.+?)[;,.] (?:but |and )?"
+            rf"before (?:that|this|you do(?: so| that)?),? (?P<do>[^,.;]+?){_END}",
+            r"\g<do>, then \g<last>",
+        ),
+        (
+            r"^(?P<do>.*\b(?:to|visit|see|reach)) (?P<one>[\w' -]+?) and (?P<two>[\w' -]+?),? (?:but |and |with )?"
+            rf"(?P=two) first{_END}",
+            r"\g<do> \g<two>, then \g<do> \g<one>",
+        ),
+        (
+            rf"^neither (?P<one>[\w' -]+?) nor (?P<two>[\w' -]+?) {_ON} (?:ever )?be (?:on|running){_END}",
+            r"never switch on \g<one> and never switch on \g<two>",
+        ),
+        (
+            rf"^(?P<one>[\w'-]+(?: [\w'-]+){{0,3}}) {_ON} (?:never|not)(?: ever)? be (?:on|running){_END}",
+            r"never switch on \g<one>",
+        ),
+        (rf"^(?:no,? )?not (?P<one>the [\w' -]+?), (?P<two>the [\w' -]+?){_END}", r"not \g<one> but \g<two>"),
+    )
+)
+"""What is mistaken with much confidence, and how it is said instead."""
+_FIRST = re.compile(r"^\s*1[.)]\s+")
+_NEXT = re.compile(r"(?<=\w) \d{1,2}[.)]\s+")
+"""The number of a step behind the last word of the one before it."""
+_APART = re.compile(r"[^\w ]\s*\d{1,2}[.)]\s")
+"""The number of a step that begins a line, or a sentence, where the networks know it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +65,8 @@ class Restated:
     """A command in other words, with the same meaning."""
 
     text: str
+    mistaken: bool = field(default=False, kw_only=True)
+    """Whether what is heard of the words as they are said is not what they mean."""
 
     @property
     def texts(self) -> tuple[str, ...]:
@@ -27,8 +74,8 @@ class Restated:
         return (self.text,)
 
     def tears(self, _query: Query, /) -> bool:
-        """Never: what is sure of the words as they are said has no need of others."""
-        return False
+        """Whether it takes the place of what is sure of the words as they are said."""
+        return self.mistaken
 
     def put_together(self, queries: Sequence[Query]) -> Query | None:
         """The query of the text."""
@@ -37,6 +84,11 @@ class Restated:
 
 
 def restated(text: str) -> Iterator[Restated]:
-    """The command with the short words for the long ones, if there are any."""
+    """The command in words that the networks know better, if it has others."""
     if _NEVER.search(text):
         yield Restated(_NEVER.sub("never", text))
+    if _FIRST.match(text) and _NEXT.search(text) and not _APART.search(text):
+        yield Restated(_NEXT.sub(", then ", _FIRST.sub("", text)), mistaken=True)
+    for pattern, words in _MISTAKEN:
+        if pattern.search(text):
+            yield Restated(pattern.sub(words, text), mistaken=True)

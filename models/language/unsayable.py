@@ -31,10 +31,39 @@ _KEPT = re.compile(
 """To stay somewhere, and to keep things as they are."""
 _OTHERWISE = re.compile(
     rf"\b(?:turn(?:ing)? {_THE} (?:[\w-]+ ){{0,3}}(?:down|up)|(?:turn|set)(?:t?ing)? (?:[\w-]+ ){{1,4}}to {_NUMBER}"
-    rf"|{_NUMBER} (?:degrees?|percent)|(?<!to )(?:check (?:up )?on|look after)"
+    rf"|{_NUMBER} (?:degrees?|percent)|(?<!to )(?:check (?:up )?on|look after)|(?:re)?charge yourself"
+    r"|no wait|wait no|scratch that"
     r"|come (?:right |straight )?back(?! (?:to|with|for|from)\b)|(?:go|look|be|walk|drive) everywhere)\b"
 )
-"""How much; and verbs that change nothing, or have no place."""
+"""How much; verbs that change nothing, or have no place; and what takes back what was said."""
+_ON_YOU = re.compile(
+    r"\bif you(?:'re|'ve)? "
+    r"(?:are|were|have|had|go|come|get|visit|pass|hold|see|find|pick|enter|reach|been|in|at|near|holding)\b"
+    r"(?! (?:(?:a|the|some|any|enough) )?(?:free|ready|done|able|not|moment|minute|time|chance|there)\b)[\w' -]*"
+    r"|\bonly (?:after|if|when|once)\b"
+)
+"""Conditions on what the robot does, and when alone it may do something."""
+_FORBIDDING = r"(?:don't|dont|do not|never|must not|mustn't|not)"
+_TOGETHER = re.compile(
+    rf"\b{_FORBIDDING} (?:[\w']+ ){{1,4}}both\b|\b{_FORBIDDING} (?:[\w']+ ){{0,8}}(?:at the same time|simultaneously)\b"
+)
+"""What is forbidden together only."""
+_LATER = re.compile(
+    rf"\b{_FORBIDDING} (?:[\w']+ ){{1,6}}after (?:the )?[\w-]+|\b(?:after|once) (?:[\w'-]+ ){{1,8}}?{_FORBIDDING}\b"
+    rf"|\band then (?:{_FORBIDDING}|stay out|keep out|stay away)\b"
+)
+"""What is forbidden from then on."""
+_UNTIL = re.compile(r"\b(?:until|till|before|unless)\b")
+_ONLY_BY = re.compile(r"\bonly (?:via|through|by way of)\b")
+_NOT_BOTH = re.compile(
+    r"(?:please )?(?:don't|dont|do not|never) (?:go|drive|walk|visit|enter|put|pick|take|bring|switch|turn)\b"
+)
+_WHILE = re.compile(r"\bwhile (?:the|my|your|a|an) (?:[\w-]+ ){1,3}(?:is|are) (?:on|off|running|in|at|inside|near)\b")
+_EVERYTHING = re.compile(r"everything (?:must|should|shall|has|needs|ought|goes|belongs)\b")
+_GOING = frozenset({"navigate_one", "move_to"})
+"""Tasks that send the robot, which is not everything."""
+_AT_THE_END = re.compile(r"\balways (?:end|finish) (?:up )?(?:in|at|by|with)\b")
+_BACK = re.compile(r"\band back$")
 _DISCOURAGED = re.compile(
     rf"\b(?:{EXCUSED}|(?:bad|terrible|poor|stupid) idea|(?:be|is|it's) (?:bad|dangerous|wrong|forbidden|unwise) to"
     r"|no (?:point|sense|use) in|(?:hate|dislike) (?:it if )?(?:you|for you)|never (?:told|said|asked)|what if"
@@ -107,8 +136,39 @@ def unsayable(text: str, query: Query) -> str | None:
         *_times(marked, query),
         *(() if chosen else _conditions(marked)),
         *_occasions(marked, query),
+        *_ways(plain, query),
     )
     return next((said for said in found if not any(f" {said} " in name for name in names)), None)
+
+
+def _ways(plain: str, query: Query) -> Iterator[str]:
+    """Conditions on what the robot does itself, and ways to forbid that the query has none of."""
+    operators = set(_operators(query))
+    patterns = [_ON_YOU, _TOGETHER, _AT_THE_END, _BACK]
+    if Operator.UNTIL in operators and not _UNTIL.search(plain):
+        patterns.append(_LATER)
+    if operators & {Operator.AVOID, Operator.UNTIL}:
+        patterns.append(_ONLY_BY)
+    if Operator.WITHOUT not in operators:
+        patterns.append(_WHILE)
+    for pattern in patterns:
+        yield from (found[0] for found in pattern.finditer(plain))
+    allows = operators and not operators & {Operator.AVOID, Operator.UNTIL, Operator.WITHOUT}
+    if (
+        allows
+        and (found := _NOT_BOTH.match(plain))
+        and not re.search(r"\b(?:but|until|before|unless|instead)\b", plain)
+    ):
+        yield found[0]
+    if _EVERYTHING.match(plain) and any(task.task in _GOING for _, task in query.tasks):
+        yield "everything"
+
+
+def _operators(query: Query) -> Iterator[Operator]:
+    if isinstance(query, Composition):
+        yield query.operator
+        for operand in query.operands:
+            yield from _operators(operand)
 
 
 def _reports(said: tuple[str, ...], query: Query) -> Iterator[str]:

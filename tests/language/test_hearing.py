@@ -118,6 +118,20 @@ def heard(bench: Bench, world: str, text: str) -> list[str]:
             "F at(robot, kitchen) & F at(robot, bedroom) & F at(robot, living_room)",
         ),
         ("house", "turn the oven on, then turn it off again", "F (running(oven) & F !running(oven))"),
+        ("house", "hands off the towel", "G !holding(towel)"),
+        (
+            "house",
+            "put the towel in the basket; before that, turn off the oven",
+            "F (!running(oven) & F in(towel, basket))",
+        ),
+        (
+            "house",
+            "Neither the oven nor the washing machine should be on",
+            "G !running(oven) & G !running(washing_machine)",
+        ),
+        ("house", "on your way to the bathroom, grab the towel", "F (holding(towel) & F at(robot, bathroom))"),
+        ("toys", "go to the bedroom and come back to the kitchen", "F (at(robot, bedroom) & F at(robot, kitchen))"),
+        ("toys", "put the ball in the box, not the bag", "F in(sphere, box) & G !in(bag, box)"),
         ("house", "keep the oven off", "F !running(oven)"),  # the service asks whether that is meant
         ("warehouse", "visit all shelves", "F near(robot, shelf_a) & F near(robot, shelf_b) & F near(robot, shelf_c)"),
         ("warehouse", "keep going between shelf a and shelf b", "G (F near(robot, shelf_a) & F near(robot, shelf_b))"),
