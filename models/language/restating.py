@@ -18,38 +18,39 @@ _NEVER = re.compile(
     re.IGNORECASE,
 )
 _END = r"(?:,? please)?[ .!]*$"
-_ON = r"(?:should|must|may|shall|can|is to|are to|has to|have to)"
+_MODAL = r"(?:should|must|may|shall|can|is to|are to|has to|have to)"
+_NAME = r"[\w'-]+(?: [\w'-]+){0,4}?"
 _MISTAKEN = tuple(
     (re.compile(pattern, re.IGNORECASE), words)
     for pattern, words in (
         (r"\b(?:keep (?:your |those |the )?)?hands off (?:of )?(?=the |my |that |this |those )", "never pick up "),
         (r"\blast,? but (?:certainly |definitely )?not least,?", "finally"),
         (
-            rf"^(?P<do>.+?),? on (?:the|your) way (?:back |home )+from (?P<off>[^,.;]+?){_END}",
+            rf"^(?P<do>.+?),? on (?:the|your) way (?:back |home )+from (?P<off>[^,.;!?]+?){_END}",
             r"go to \g<off>, then \g<do>",
         ),
-        (r"^on (?:the|your) way (?:back |home )+from (?P<off>[^,.;]+), (?P<do>.+)", r"go to \g<off>, then \g<do>"),
-        (rf"^(?P<do>[^,.;]+?) on (?:the|your) way to (?P<to>[^,.;]+?){_END}", r"\g<do>, then go to \g<to>"),
-        (r"^on (?:the|your) way to (?P<to>[^,.;]+), (?P<do>[^,.;]+)", r"\g<do>, then go to \g<to>"),
+        (r"^on (?:the|your) way (?:back |home )+from (?P<off>[^,.;!?]+), (?P<do>.+)", r"go to \g<off>, then \g<do>"),
+        (rf"^(?P<do>[^,.;!?]+?) on (?:the|your) way to (?P<to>[^,.;!?]+?){_END}", r"\g<do>, then go to \g<to>"),
+        (r"^on (?:the|your) way to (?P<to>[^,.;!?]+), (?P<do>[^,.;!?]+)", r"\g<do>, then go to \g<to>"),
         (
             r"^(?:(?:last of all|finally|lastly),? )?(?P<last>.+?)[;,.] (?:but |and )?"
-            rf"before (?:that|this|you do(?: so| that)?),? (?P<do>[^,.;]+?){_END}",
+            rf"before (?:that|this|you do(?: so| that)?),? (?P<do>[^,.;!?]+?){_END}",
             r"\g<do>, then \g<last>",
         ),
         (
-            r"^(?P<do>.*\b(?:to|visit|see|reach)) (?P<one>[\w' -]+?) and (?P<two>[\w' -]+?),? (?:but |and |with )?"
-            rf"(?P=two) first{_END}",
+            rf"^(?P<do>(?:[\w']+ ){{0,6}}?(?:to|visit|see|reach)) (?P<one>{_NAME}) and (?P<two>{_NAME}),? "
+            rf"(?:but |and |with )?(?P=two) first{_END}",
             r"\g<do> \g<two>, then \g<do> \g<one>",
         ),
         (
-            rf"^neither (?P<one>[\w' -]+?) nor (?P<two>[\w' -]+?) {_ON} (?:ever )?be (?:on|running){_END}",
+            rf"^neither (?P<one>{_NAME}) nor (?P<two>{_NAME}) {_MODAL} (?:ever )?be (?:on|running){_END}",
             r"never switch on \g<one> and never switch on \g<two>",
         ),
         (
-            rf"^(?P<one>[\w'-]+(?: [\w'-]+){{0,3}}) {_ON} (?:never|not)(?: ever)? be (?:on|running){_END}",
+            rf"^(?P<one>{_NAME}) {_MODAL} (?:never|not)(?: ever)? be (?:on|running){_END}",
             r"never switch on \g<one>",
         ),
-        (rf"^(?:no,? )?not (?P<one>the [\w' -]+?), (?P<two>the [\w' -]+?){_END}", r"not \g<one> but \g<two>"),
+        (rf"^(?:no,? )?not (?P<one>the {_NAME}), (?P<two>the {_NAME}){_END}", r"not \g<one> but \g<two>"),
     )
 )
 """What is mistaken with much confidence, and how it is said instead."""
@@ -89,6 +90,7 @@ def restated(text: str) -> Iterator[Restated]:
         yield Restated(_NEVER.sub("never", text))
     if _FIRST.match(text) and _NEXT.search(text) and not _APART.search(text):
         yield Restated(_NEXT.sub(", then ", _FIRST.sub("", text)), mistaken=True)
+    plain = " ".join(text.split())  # patterns would take long over runs of spaces
     for pattern, words in _MISTAKEN:
-        if pattern.search(text):
-            yield Restated(pattern.sub(words, text), mistaken=True)
+        if pattern.search(plain):
+            yield Restated(pattern.sub(words, plain), mistaken=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from models.language.restating import restated
@@ -67,3 +69,14 @@ def test_what_is_mistaken_is_said_in_other_words(text: str, said: str) -> None:
 )
 def test_what_is_understood_stays(text: str) -> None:
     assert list(restated(text)) == []
+
+
+@pytest.mark.parametrize(
+    "part",
+    ["to and ", "see a and ", "on the way back from ", "a on the way to ", "neither a nor ", "before that; ", "!"],
+)
+def test_long_texts_are_looked_through_at_once(part: str) -> None:
+    """No pattern tries the ways in which parts that repeat may be divided."""
+    began = time.perf_counter()
+    list(restated((part * 2000)[:2000]))
+    assert time.perf_counter() - began < 0.5
