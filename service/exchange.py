@@ -100,6 +100,7 @@ def _exported(data: Mapping[str, Any], options: argparse.Namespace) -> str:
 def import_environment(settings: Settings, options: argparse.Namespace) -> int:
     """Read an environment or a PRISM model and store it, or write it as JSON; the exit status."""
     from service.client import UnreachableError, client
+    from service.store.soundness import shown
 
     model = options.file.suffix not in ENVIRONMENT_FILES
     if model and options.name is None:
@@ -128,6 +129,8 @@ def import_environment(settings: Settings, options: argparse.Namespace) -> int:
         print(json.dumps(answer, indent=2, ensure_ascii=False), file=sys.stderr)
         return 1
     print(f"{answer['name']}: {_counted(data)}")
+    if options.server is None:
+        print(f"stored in {shown(settings.url)}; --server stores it in that of a service", file=sys.stderr)
     return 0
 
 

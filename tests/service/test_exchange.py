@@ -68,7 +68,9 @@ def test_an_environment_of_ones_own_is_stored_replaced_and_planned(
     """
     file.write_text(hut)
     assert main(["import", str(file)]) == 0
-    assert capsys.readouterr().out == "hut: 6 states, 6 actions\n"
+    printed = capsys.readouterr()
+    assert printed.out == "hut: 6 states, 6 actions\n"
+    assert "stored in sqlite:///" in printed.err
     assert main(["plan", "--ltl", 'F at(ball, "2024-01-01")', "--environment", "hut"]) == 0
     assert json.loads(capsys.readouterr().out)["expected_steps"] == 3
     assert main(["import", str(file)]) == 1
