@@ -247,7 +247,7 @@ class Hearing:
         hear no command in it.
         """
         said, translator = marked_words(text), self.translator
-        if not said or said[0] not in ASKING or not isinstance(translator, ComposedTranslator):
+        if not said or said[0].removesuffix("'s") not in ASKING or not isinstance(translator, ComposedTranslator):
             return False
         if any(is_mark(word) for word in said[:-1]):
             return False
