@@ -32,10 +32,10 @@ _KEPT = re.compile(
 _OTHERWISE = re.compile(
     rf"\b(?:turn(?:ing)? {_THE} (?:[\w-]+ ){{0,3}}(?:down|up)|(?:turn|set)(?:t?ing)? (?:[\w-]+ ){{1,4}}to {_NUMBER}"
     rf"|{_NUMBER} (?:degrees?|percent)|(?<!to )(?:check (?:up )?on|look after)|(?:re)?charge yourself"
-    r"|no wait|wait no|scratch that"
+    r"|no wait|wait no|scratch that|always (?:end|finish) (?:up )?(?:in|at|by|with)|and back$"
     r"|come (?:right |straight )?back(?! (?:to|with|for|from)\b)|(?:go|look|be|walk|drive) everywhere)\b"
 )
-"""How much; verbs that change nothing, or have no place; and what takes back what was said."""
+"""How much; verbs that change nothing, or have no place; where to end, and what takes back what was said."""
 _ON_YOU = re.compile(
     r"\bif you(?:'re|'ve)? "
     r"(?:are|were|have|had|go|come|get|visit|pass|hold|see|find|pick|enter|reach|been|in|at|near|holding)\b"
@@ -54,16 +54,16 @@ _LATER = re.compile(
 )
 """What is forbidden from then on."""
 _UNTIL = re.compile(r"\b(?:until|till|before|unless)\b")
+_OTHER_WAY = re.compile(r"\b(?:but|until|before|unless|instead)\b")
+"""With one of these, what begins with "do not" may also say what to do."""
 _ONLY_BY = re.compile(r"\bonly (?:via|through|by way of)\b")
-_NOT_BOTH = re.compile(
+_FORBIDS_FIRST = re.compile(
     r"(?:please )?(?:don't|dont|do not|never) (?:go|drive|walk|visit|enter|put|pick|take|bring|switch|turn)\b"
 )
 _WHILE = re.compile(r"\bwhile (?:the|my|your|a|an) (?:[\w-]+ ){1,3}(?:is|are) (?:on|off|running|in|at|inside|near)\b")
 _EVERYTHING = re.compile(r"everything (?:must|should|shall|has|needs|ought|goes|belongs)\b")
 _GOING = frozenset({"navigate_one", "move_to"})
 """Tasks that send the robot, which is not everything."""
-_AT_THE_END = re.compile(r"\balways (?:end|finish) (?:up )?(?:in|at|by|with)\b")
-_BACK = re.compile(r"\band back$")
 _DISCOURAGED = re.compile(
     rf"\b(?:{EXCUSED}|(?:bad|terrible|poor|stupid) idea|(?:be|is|it's) (?:bad|dangerous|wrong|forbidden|unwise) to"
     r"|no (?:point|sense|use) in|(?:hate|dislike) (?:it if )?(?:you|for you)|never (?:told|said|asked)|what if"
@@ -127,7 +127,9 @@ def unsayable(text: str, query: Query) -> str | None:
     """
     names = [f" {phrase} " for _, task in query.tasks for phrase in task.arguments]
     plain = " ".join(words(text))
-    passed_over = (found[0] for pattern in (_OFTEN, _KEPT, _OTHERWISE) for found in pattern.finditer(plain))
+    passed_over = (
+        found[0] for pattern in (_OFTEN, _KEPT, _OTHERWISE, _ON_YOU, _TOGETHER) for found in pattern.finditer(plain)
+    )
     chosen = isinstance(query, Composition) and query.operator is Operator.OR and not _ELSE.isdisjoint(words(text))
     marked = marked_words(text)
     found = (
@@ -142,9 +144,9 @@ def unsayable(text: str, query: Query) -> str | None:
 
 
 def _ways(plain: str, query: Query) -> Iterator[str]:
-    """Conditions on what the robot does itself, and ways to forbid that the query has none of."""
+    """Ways to forbid something, and a subject, that this query has none of, though others have."""
     operators = set(_operators(query))
-    patterns = [_ON_YOU, _TOGETHER, _AT_THE_END, _BACK]
+    patterns = []
     if Operator.UNTIL in operators and not _UNTIL.search(plain):
         patterns.append(_LATER)
     if operators & {Operator.AVOID, Operator.UNTIL}:
@@ -154,11 +156,7 @@ def _ways(plain: str, query: Query) -> Iterator[str]:
     for pattern in patterns:
         yield from (found[0] for found in pattern.finditer(plain))
     allows = operators and not operators & {Operator.AVOID, Operator.UNTIL, Operator.WITHOUT}
-    if (
-        allows
-        and (found := _NOT_BOTH.match(plain))
-        and not re.search(r"\b(?:but|until|before|unless|instead)\b", plain)
-    ):
+    if allows and (found := _FORBIDS_FIRST.match(plain)) and not _OTHER_WAY.search(plain):
         yield found[0]
     if _EVERYTHING.match(plain) and any(task.task in _GOING for _, task in query.tasks):
         yield "everything"
