@@ -132,7 +132,10 @@ def _translator(parser: argparse.ArgumentParser) -> None:
 
 def _answers(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--answer", action="append", default=[], help="to the question that is asked; again for the next"
+        "--answer",
+        action="append",
+        default=[],
+        help="to the question, or none where no choice is right; again for the next",
     )
 
 
@@ -256,7 +259,9 @@ def _asked(asking: Client, options: argparse.Namespace, body: dict[str, Any]) ->
 def _answer(choice: str, question: dict[str, Any] | None) -> dict[str, Any]:
     """A choice as the answer to a question; what is asked about is taken from that."""
     about = {} if question is None else {name: question[name] for name in ("part", "argument")}
-    return {"choice": choice, **{name: value for name, value in about.items() if value is not None}}
+    nothing = choice == "none" and "none" not in (question or {}).get("choices", [])
+    said = {name: value for name, value in about.items() if value is not None}
+    return {"choice": None if nothing else choice, **said}
 
 
 def _plan_options(options: argparse.Namespace) -> dict[str, Any]:

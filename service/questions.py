@@ -46,9 +46,9 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """One of the choices of a question; `part` and `argument` as in the question."""
+    """One of the choices of a question, or None for none of them; `part` and `argument` as in the question."""
 
-    choice: str
+    choice: str | None
     part: str = ""
     argument: int | None = None
 
@@ -89,7 +89,8 @@ def answered(
     *,
     first: Question | None = None,
 ) -> tuple[Understanding, ...]:
-    """The reading that is left when the questions are answered one after the other, the `first` of which may be given.
+    """The reading that is left when the questions are answered one after the other, the `first` of which may be given;
+    none after an answer that none of the choices is right.
 
     Raises:
         AnswerError: an answer is not one to the question that is asked then; the place names it.
@@ -99,6 +100,9 @@ def answered(
         question = first if first is not None and number == 0 else question_of(text, left, taught, environment)
         if question is None:
             raise _wrong(number, "", "nothing is asked here")
+        if answer.choice is None:
+            left = ()
+            continue
         if answer.choice not in question.choices:
             raise _wrong(number, "/choice", f'"{answer.choice}" is none of the choices: {", ".join(question.choices)}')
         if question.about == "reading":

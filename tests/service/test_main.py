@@ -78,6 +78,8 @@ def test_questions_are_answered_one_after_the_other(client: httpx.Client, tmp_pa
     assert json.loads(run_here(*picked, "--answer", "bag", data=tmp_path).stdout)["ltl"] == "F holding(bag)"
     wrong = run_here(*picked, "--answer", "moon", data=tmp_path)
     assert (wrong.returncode, "wrong-answer" in wrong.stderr) == (1, True)
+    neither = run_here(*picked, "--answer", "none", data=tmp_path)
+    assert (neither.returncode, json.loads(neither.stdout)["outcome"]) == (0, "unknown")
 
 
 def test_explaining_with_a_server(client: httpx.Client, tmp_path: Path) -> None:

@@ -116,9 +116,11 @@ class QuestionOut(BaseModel):
 
 
 class AnswerIn(Request):
-    """One of the `choices` of a question, with its `part` and `argument`."""
+    """One of the `choices` of a question, with its `part` and `argument`; or that none of them is right."""
 
-    choice: str = Field(max_length=4_096)
+    choice: Annotated[str, Field(max_length=4_096)] | None = Field(
+        description="One of the `choices`, or null: none of them is right, and the command fits no task."
+    )
     part: str = Field("", max_length=200)
     argument: int | None = Field(None, ge=1, le=16)
 

@@ -120,16 +120,15 @@ function ask(question) {
     return make("button", { type: "button", onclick: () => say(asked.text, [...asked.answers, answer]) }, label,
       question.about === "thing" && says !== choice ? make("span", { class: "note" }, says.replace(`${choice}: `, "")) : null);
   });
-  const none = make("button", { type: "button", class: "plain", onclick: () => otherwise() }, "None of these");
+  const none = make("button", { type: "button", class: "plain", onclick: otherwise }, "None of these");
   byId("choices").replaceChildren(...buttons, none);
   show(byId("question"));
   buttons[0].focus();
 }
 
 /** Nothing that was offered is meant. */
-function otherwise() {
-  show(byId("question"), false);
-  tell("command-problem", "Say it in other words, or teach it below.");
+async function otherwise() {
+  await say(asked.text, [...asked.answers, { choice: null }]);
   byId("command").focus();
 }
 
