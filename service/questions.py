@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from models.errors import Place
+from models.language.contraries import contrary
+from models.language.tokens import words
 from models.language.unsayable import unsayable
 from models.queries import (
     AmbiguousGroundingError,
@@ -152,14 +154,18 @@ def _called(
 
 
 def _confirmation(text: str, best: Understanding, taught: Taught, environment: Environment) -> Question | None:
-    """Whether a reading that is not certain is meant in place of what the words say and what means nothing here, or
-    without what the text says besides and no query can: how often, how long, when, or under which condition. An
-    utterance that a task was taught with may.
+    """Whether a reading that is not certain is meant in place of what the words say and what means nothing here, though
+    they say the contrary of a task, or without what the text says besides and no query can: how often, how long, when,
+    or under which condition. An utterance that a task was taught with may.
     """
     if best.query is None or best.meaning is None or best.confidence >= 1.0:
         return None
     if best.instead_of is not None:
         return _meant(best.instead_of.detail, best, environment)
+    spoken = words(text)
+    for _, task in best.query.tasks:
+        if (against := contrary(spoken, task, taught.wordings.own_words.get(task.task, ()))) is not None:
+            return _meant(f'"{against[0]}" is the contrary of "{against[1]}"', best, environment)
     passed_over = unsayable(text, best.query)
     stored = [taught.stored[task.task] for _, task in best.query.tasks if task.task in taught.stored]
     said = (example.text for template in stored for example in template.examples)

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from models.language.composition import ComposedTranslator
+from models.language.contraries import contrary
 from models.language.coordination import Joined, joined
 from models.language.corrections import corrected
 from models.language.formal import is_formal
@@ -26,7 +27,7 @@ from models.language.trimming import trimmed
 from models.language.weighing import doubted, forbidden_too, merged, parted
 from models.language.whereabouts import Located, located
 from models.queries import Template
-from models.world import Environment, mentions, speaks_of_others
+from models.world import Environment, UnknownObjectError, mentions, speaks_of_others
 
 MATCHED = 12
 """Readings by nearness that are looked at: the environment may make sense of a later one only."""
@@ -40,6 +41,12 @@ HEARD = 0.5
 """Probability of any taught task from which one is heard."""
 HEARD_OF_THINGS = 0.03
 """The same for a text that names things of the environment: that is hardly said to a robot there for nothing."""
+HEARD_OF_WHAT_CANNOT_BE = 0.98
+"""The same for a text that is only near to it, where the things that it names cannot have that done to them: it rather
+says something that nobody taught.
+"""
+CONTRARY = 0.1
+"""How much less probable a task is that the text says the contrary of: "unlock the cup", near to locking it."""
 NEGATED = NEGATIONS | {"no"}
 """Words with which a text may forbid the task that it is near to."""
 FORBIDDEN = 0.5
@@ -107,21 +114,23 @@ class Lessons:
         named = {said: () if environment is None else mentions(said, environment) for said in spoken}
         found = self.matcher.match_all(texts, self.shelf, candidates=candidates, fits=fits, named=named.__getitem__)
         return [
-            self._taught(self._moved_as_said(said, near), least=HEARD_OF_THINGS if named[said] else HEARD)
+            self._taught(self._heeded(said, near), least=HEARD_OF_THINGS if named[said] else HEARD)
             for said, near in zip(spoken, found, strict=True)
         ]
 
-    def _moved_as_said(self, said: Sequence[str], near: Sequence[Translation]) -> tuple[Translation, ...]:
-        """What moves no thing to where the text says that it is, and none to what the text moves to it."""
-        sources, moves = self.wordings.sources, self.wordings.moves
-        return tuple(
-            translation
-            for translation in near
-            if not any(
-                mistakes_source(said, task, sources) or moves_back(said, task, moves)
-                for _, task in translation.query.tasks
-            )
-        )
+    def _heeded(self, said: Sequence[str], near: Sequence[Translation]) -> tuple[Translation, ...]:
+        """What moves no thing to where the text says that it is, and none to what the text moves to it; what the text
+        says the contrary of last.
+        """
+        sources, moves, own = self.wordings.sources, self.wordings.moves, self.wordings.own_words
+        kept = []
+        for translation in near:
+            tasks = [task for _, task in translation.query.tasks]
+            if any(mistakes_source(said, task, sources) or moves_back(said, task, moves) for task in tasks):
+                continue
+            against = any(contrary(said, task, own.get(task.task, ())) for task in tasks)
+            kept.append(replace(translation, confidence=CONTRARY * translation.confidence) if against else translation)
+        return tuple(sorted(kept, key=lambda translation: -translation.confidence))
 
     def nearest(self, text: str, *, count: int, environment: Environment | None = None) -> tuple[str, ...]:
         """The tasks that are nearest to a text, of those that make sense there; raises TextTooLongError."""
@@ -239,7 +248,8 @@ class Hearing:
         if isinstance(translator, ComposedTranslator) and environment is not None and _senseless(ranked):
             ranked = self._otherwise(scene, said, translator, wanted) or ranked
         if not heard and not exact and environment is not None and _senseless(ranked):
-            ranked = ranked if sum(reading.confidence for reading in ranked) > HEARD else ()
+            least = HEARD if _of_what_is_unknown(ranked) else HEARD_OF_WHAT_CANNOT_BE
+            ranked = ranked if sum(reading.confidence for reading in ranked) > least else ()
         return merged(taught, ranked)[:candidates]
 
     def _is_question(self, text: str) -> bool:
@@ -302,6 +312,11 @@ def _misheard(taught: Sequence[Reading], environment: Environment) -> bool:
     """
     phrases = [phrase for reading in taught for _, task in reading.query.tasks for phrase in task.arguments]
     return _senseless(taught) and not any(speaks_of_others(phrase, environment) for phrase in phrases)
+
+
+def _of_what_is_unknown(readings: Sequence[Reading]) -> bool:
+    """Whether the best reading means nothing because a word of it is no name in the environment."""
+    return bool(readings) and isinstance(readings[0].refusal, UnknownObjectError)
 
 
 def _certain(readings: Sequence[Reading]) -> bool:

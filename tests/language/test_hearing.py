@@ -199,6 +199,9 @@ def test_what_may_be_forbidden_is_asked_about(bench: Bench) -> None:
         ("house", "What's in the kitchen?"),
         ("toys", "pick up the ball and dance"),
         ("house", "bring me the cup"),  # near to switching it on, which means nothing there
+        ("house", "leave the kitchen"),  # near to switching it off
+        ("house", "empty the basket"),
+        ("house", "swap the cup and the towel"),
     ],
 )
 def test_what_asks_for_nothing_known(bench: Bench, world: str, text: str) -> None:

@@ -6,8 +6,9 @@ slot is a phrase of the command; a slot that occurs twice is filled by the same 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import product
 
 from models.errors import CqltlError, Place
@@ -126,13 +127,18 @@ class TaughtTranslator:
     """The arguments that some wording says something else to be in: "unpack {1} from {2}"."""
     moves: frozenset[Move] = frozenset()
     """The arguments that some wording says to go to another one: "put {1} in {2}"."""
+    own_words: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """By task the words of its wordings."""
 
     @classmethod
     def of(cls, utterances: Iterable[Utterance]) -> TaughtTranslator:
         """From utterances; raises as `Wording.of`."""
         kept = sorted(dict.fromkeys(map(Wording.of, utterances)), key=lambda wording: -wording.literal)
-        literals = (frozenset(e for e in wording.elements if isinstance(e, str)) for wording in kept)
-        return cls(tuple(zip(kept, literals, strict=True)), source_slots(kept), moves(kept))
+        literals = [frozenset(e for e in wording.elements if isinstance(e, str)) for wording in kept]
+        own_words: defaultdict[str, frozenset[str]] = defaultdict(frozenset)
+        for wording, said in zip(kept, literals, strict=True):
+            own_words[wording.task] |= said
+        return cls(tuple(zip(kept, literals, strict=True)), source_slots(kept), moves(kept), dict(own_words))
 
     def translate_all(self, texts: Sequence[str], *, candidates: int = 1) -> list[tuple[Translation, ...]]:
         """As `translate`, of each text."""

@@ -131,6 +131,15 @@ def test_conditions_are_not_passed_over(client: httpx.Client) -> None:
     assert ask(client, "Go to the zoo if it is no trouble", "city")["outcome"] == "translated"
 
 
+def test_what_undoes_a_task_does_not_pass_for_it(client: httpx.Client) -> None:
+    learn(client, "lock_away(sphere)", "F in(sphere, box)", "lock the sphere away")
+    assert ask(client, "lock the cylinder away", "toys")["outcome"] == "translated"
+    assert ask(client, "unlock the cylinder", "toys")["outcome"] != "translated"
+    client.delete("/templates/lock_away")
+    question = ask(client, "exit the kitchen", "toys")["question"]
+    assert question["text"].startswith('"exit" is the contrary of "navigate"; do you mean: ')
+
+
 def test_two_meanings_of_a_taught_wording_are_asked_about(client: httpx.Client) -> None:
     learn(client, "fetch1(sphere)", "F holding(sphere)", "fetch me the sphere")
     learn(client, "fetch2(sphere)", "F in(sphere, box)", "fetch me the sphere")
