@@ -14,7 +14,7 @@ serve: $(VENV)/.serve
 	$(BIN)/cqltl serve
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest -n 2 --dist loadscope
+	$(BIN)/python -m pytest -n 2 --dist loadscope --no-loadscope-reorder
 
 promises: $(VENV)/.dev  # what is promised of jobs, on both executors: processes and database servers are killed
 	$(BIN)/python -m pytest -m 'long or not long' tests/service/jobs

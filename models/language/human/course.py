@@ -9,12 +9,15 @@ from dataclasses import dataclass
 
 from models.language.human.environment import Environment, Sentence
 from models.language.human.lifting import Lifted, arity
+from models.language.human.own import OwnCommands
 from models.language.spans.items import Item
 
 CHECKED = 0.05
 """Part of the training commands that is only looked at, for the temperature."""
 LEAST = 4
 """Templates with fewer commands are not taught: most are slips of the labels."""
+OWN = 0.2
+"""Commands of this repository, to each of the training set."""
 RENAMED = 0.5
 """Part of the commands that are drawn with their things renamed in order."""
 
@@ -32,6 +35,7 @@ class HumanCourse:
     commands: Sequence[Lifted]
     checked: Sequence[Lifted]
     environment: Environment
+    own: OwnCommands
     known: frozenset[str] = frozenset()
     drawn: int = 1500
 
@@ -53,12 +57,14 @@ class HumanCourse:
         held = max(1, round(CHECKED * len(kept)))
         taught = {command.template for command in shuffled[held:]}
         checked = [command for command in shuffled[:held] if command.template in taught]
-        return cls(shuffled[held:], checked, environment, frozenset(known), drawn)
+        own = OwnCommands.of((command.template for command in kept), environment)
+        return cls(shuffled[held:], checked, environment, own, frozenset(known), drawn)
 
     @property
     def tasks(self) -> tuple[tuple[str, int], ...]:
         """The templates with their numbers of holes."""
-        return tuple((template, arity(template)) for template in sorted({one.template for one in self.commands}))
+        templates = {one.template for one in self.commands} | set(self.own.ways)
+        return tuple((template, arity(template)) for template in sorted(templates))
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -72,8 +78,10 @@ class HumanCourse:
         return tuple(sorted({word for word, count in counts.items() if count > 1} | self.known))
 
     def epoch(self, generator: random.Random) -> list[Item]:
-        """`drawn` commands, each as often as the others."""
-        return [self._item(command, generator) for command in generator.choices(self.commands, k=self.drawn)]
+        """`drawn` commands, each as often as the others, and a part of that which the translator knew before."""
+        drawn = generator.choices(self.commands, k=self.drawn)
+        drawn += self.own.draw(round(OWN * self.drawn), generator)
+        return [self._item(command, generator) for command in drawn]
 
     def checks(self, generator: random.Random) -> list[Item]:
         """Those that are only looked at."""

@@ -46,10 +46,22 @@ class Sentence:
 
 
 @dataclass(frozen=True, slots=True)
+class Places:
+    """The kinds of things that are places; `says` is how a text names one, `means` the proposition of being there,
+    with `{}` for the name and the thing.
+    """
+
+    kinds: Sequence[str]
+    says: str
+    means: str
+
+
+@dataclass(frozen=True, slots=True)
 class Environment:
-    """By kind and thing, the names that texts have for it, the usual one first."""
+    """By kind and thing, the names that texts have for it, the usual one first; and which are places, if any."""
 
     kinds: Mapping[str, Mapping[str, Sequence[Words]]]
+    places: Places | None = None
 
     @property
     def kind_of(self) -> dict[str, str]:
@@ -78,12 +90,13 @@ class Environment:
 def environment(dataset: str) -> Environment:
     """What one of `DATASETS` is about."""
     data = read_yaml((files("models.language.human") / "environments.yaml").read_text(encoding="utf-8"))
-    kinds = data[dataset]
+    kinds, places = data["things"][dataset], data["places"].get(dataset)
     return Environment(
         {
             kind: {thing: [words(name) for name in names] for thing, names in things.items()}
             for kind, things in kinds.items()
-        }
+        },
+        None if places is None else Places(**places),
     )
 
 

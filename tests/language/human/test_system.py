@@ -53,12 +53,15 @@ def test_a_tiny_training_understands_formulas_that_it_never_saw() -> None:
 def test_a_course_teaches_commands_as_they_are_and_renamed() -> None:
     drone = environment("drone")
     lifted = [lift(command, drone) for command in commands()]
-    odd = Lifted(lifted[0].sentence, "finally ( $1 )", lifted[0].things[:1])
+    odd = Lifted(lifted[0].sentence, "next ( $1 )", lifted[0].things[:1])
     course = HumanCourse.of([*lifted, odd], drone, seed=0, known=("via",), drawn=50)
-    assert dict(course.tasks) == dict.fromkeys({one.template for one in lifted}, 2)
+    part = "finally ( $1 )"  # which no command has, and the translator has words for
+    assert dict(course.tasks) == dict.fromkeys({one.template for one in lifted}, 2) | {part: 1}
     assert {"via", "through", "until"} <= set(course.words)
-    texts = {item.text for item in course.epoch(random.Random(1))}
-    assert len(texts) <= 50
+    epoch = course.epoch(random.Random(1))
+    assert len(epoch) == 60
+    assert part in {item.task for item in epoch[50:]} <= set(course.own.ways)
+    texts = {item.text for item in epoch[:50]}
     known = {one.sentence.words for one in lifted} | {drone.in_order(one.sentence).words for one in lifted}
     assert texts <= known
     assert len(course.checks(random.Random(0))) == len(course.checked) == 4
@@ -116,7 +119,7 @@ def test_a_text_of_the_training_set_is_a_duplicate() -> None:
     training = commands()
     plan = Plan(drawn=40)
     plan = replace(plan, settings=replace(plan.settings, epochs=1))
-    other = Command("go at last to the red room", "finally ( the red room )")
+    other = Command("stay for ever in the red room", "always ( the red room )")
     split = Split("one", training, [training[0], other])
     outcomes = measure(split, environment("drone"), seed=0, plan=plan, log=[].append)
     assert [outcome.duplicate for outcome in outcomes] == [True, False]
