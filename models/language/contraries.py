@@ -111,9 +111,7 @@ def _goes_with(spoken: Sequence[str], at: int, own: set[str], arguments: Sequenc
     """Whether the word at a place goes with a verb that is known: "turn off the lamp", "turn the lamp off"."""
     if at and spoken[at - 1] in own and any(_stands_at(spoken, at + 1, argument) for argument in arguments):
         return True
-    begins = (
-        begin for argument in arguments for begin in range(1, at) if _stands_at(spoken, begin, argument, ends=at)
-    )
+    begins = (begin for argument in arguments for begin in range(1, at) if _stands_at(spoken, begin, argument, ends=at))
     return any(spoken[begin - 1] in own for begin in begins)
 
 

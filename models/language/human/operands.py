@@ -12,8 +12,9 @@ from functools import cache
 from itertools import combinations
 
 from models.language.human.lifting import Lifted, arity
+from models.language.human.spelling import read
 
-COMMUTATIVE = ("and", "or")
+COMMUTATIVE = frozenset({"and", "or"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,35 +46,20 @@ class OperandOrder:
 def swappable(template: str) -> tuple[tuple[int, int], ...]:
     """The pairs of holes, counted from 0, whose exchange leaves the meaning: they are operands of one `and` or `or`."""
     holes = range(arity(template))
-    same = _normal(template.split())
+    same = _normal(template)
     return tuple(
         (one, other)
         for one, other in combinations(holes, 2)
-        if _normal([_exchanged(word, one + 1, other + 1) for word in template.split()]) == same
+        if _normal(_exchanged(template, one + 1, other + 1)) == same
     )
 
 
-def _exchanged(word: str, one: int, other: int) -> str:
-    return {f"${one}": f"${other}", f"${other}": f"${one}"}.get(word, word)
+def _exchanged(template: str, one: int, other: int) -> str:
+    exchange = {f"${one}": f"${other}", f"${other}": f"${one}"}
+    return " ".join(exchange.get(word, word) for word in template.split())
 
 
-def _normal(spoken: Sequence[str]) -> str:
-    """A formula in Pan's spelling, words and `op ( a , b )`, with the operands of commutative operators sorted."""
-    text, rest = _read(list(spoken))
-    return " ".join([text, *rest])
-
-
-def _read(spoken: list[str]) -> tuple[str, list[str]]:
-    """One formula from the front, and what is left."""
-    head: list[str] = []
-    while spoken and spoken[0] not in ("(", ")", ","):
-        head.append(spoken.pop(0))
-    if not spoken or spoken[0] != "(":
-        return " ".join(head), spoken
-    operands: list[str] = []
-    while spoken and spoken[0] in ("(", ","):
-        operand, spoken = _read(spoken[1:])
-        operands.append(operand)
-    if head and head[-1] in COMMUTATIVE:
-        operands.sort()
-    return f"{' '.join(head)} ( {' , '.join(operands)} )", spoken[1:]
+def _normal(template: str) -> str:
+    """The template with the operands of commutative operators sorted; as it is where it is none of Pan's spelling."""
+    spelled = read(template)
+    return template if spelled is None else str(spelled.sorted(COMMUTATIVE))

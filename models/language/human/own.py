@@ -19,6 +19,7 @@ from models.language.composition.shapes import read_shape
 from models.language.dataset.composition import Form, Pattern, leaves, patterns, slot_elements
 from models.language.human.environment import Environment, Name, Sentence
 from models.language.human.lifting import Lifted, arity, fill, lift_formula
+from models.language.human.spelling import Spelled, read
 from models.language.tokens import is_mark
 from models.logic import Atom, Formula, Op, Parameter, Unary, build, equivalent
 from models.queries import ContextualQuery, Query, compose
@@ -28,7 +29,7 @@ GOING = "navigate_one"
 FORMS = frozenset({"do", "doing", "done", "state", "it", "echo"})
 """Forms of clauses that go to a place."""
 _HOLE = re.compile(r"\$\d+")
-_OPERATORS = {
+OPERATORS = {
     "finally": Op.FINALLY,
     "globally": Op.GLOBALLY,
     "always": Op.GLOBALLY,
@@ -37,6 +38,8 @@ _OPERATORS = {
     "or": Op.OR,
     "until": Op.UNTIL,
 }
+TEMPORAL = frozenset({"finally", "until"})
+"""Operators of which one is in what may be meant alone."""
 _PLACE = None
 """Stands for a place within a clause."""
 
@@ -94,18 +97,11 @@ class OwnCommands:
 
 
 def parts(template: str) -> Iterator[str]:
-    """A template and its parts that say something of time: `finally ( $1 )` of `and ( finally ( $1 ) , ... )`."""
-    spoken = template.split()
-    for begin in range(len(spoken)):
-        if spoken[begin + 1 : begin + 2] != ["("]:
-            continue
-        depth, end = 0, begin + 1
-        while end == begin + 1 or depth:
-            depth += {"(": 1, ")": -1}.get(spoken[end], 0)
-            end += 1
-        part = spoken[begin:end]
-        if begin == 0 or not {"finally", "until"}.isdisjoint(part):
-            yield " ".join(part)
+    """A template and its parts that bid to do something: also `finally ( $1 )` of `and ( finally ( $1 ) , ... )`."""
+    spelled = read(template)
+    for part in () if spelled is None else spelled.walk():
+        if any(inner.head in TEMPORAL for inner in part.walk()):
+            yield str(part)
 
 
 def numbered(template: str) -> str:
@@ -135,25 +131,17 @@ def read_formula(template: str, means: str) -> Formula | None:
     """A template in the spelling of the data sets as a formula of the places `$1`, `$2`, ...; None where it says more
     than where the robot is, by the proposition `means`.
     """
-    formula, rest = _read(template.split(), means)
-    return None if rest else formula
+    spelled = read(template)
+    return None if spelled is None else _formula(spelled, means)
 
 
-def _read(spoken: list[str], means: str) -> tuple[Formula | None, list[str]]:
-    """One formula from the front, and what is left."""
-    end = next((place for place, word in enumerate(spoken) if word in ("(", ")", ",")), len(spoken))
-    head, spoken = " ".join(spoken[:end]), spoken[end:]
-    if spoken[:1] != ["("]:
-        hole = _HOLE.search(head)
-        is_place = hole is not None and head == means.format(hole[0])
-        return (_at(int(hole[0][1:])) if hole is not None and is_place else None), spoken
-    operands: list[Formula | None] = []
-    while spoken[:1] in (["("], [","]):
-        operand, spoken = _read(spoken[1:], means)
-        operands.append(operand)
+def _formula(spelled: Spelled, means: str) -> Formula | None:
+    if not spelled.operands:
+        hole = _HOLE.search(spelled.head)
+        return None if hole is None or spelled.head != means.format(hole[0]) else _at(int(hole[0][1:]))
+    operands = [_formula(operand, means) for operand in spelled.operands]
     known = [operand for operand in operands if operand is not None]
-    whole = head in _OPERATORS and len(known) == len(operands)
-    return (build(_OPERATORS[head], known) if whole else None), spoken[1:]
+    return build(OPERATORS[spelled.head], known) if len(known) == len(operands) and spelled.head in OPERATORS else None
 
 
 def _meaning(shape: Query, order: Sequence[int]) -> Formula:

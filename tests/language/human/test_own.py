@@ -18,7 +18,7 @@ EITHER_THEN = "finally ( and ( or ( go to the $1 room , go to the $2 room ) , fi
 CLEANUP, DRONE = environment("cleanup"), environment("drone")
 
 
-def test_parts_of_a_template_say_something_of_time() -> None:
+def test_parts_of_a_template_bid_to_do_something() -> None:
     assert list(parts(AVOIDING)) == [AVOIDING, "finally ( go to the $1 room )"]
     assert list(parts("until ( not ( $1 ) , $2 )")) == ["until ( not ( $1 ) , $2 )"]
     assert list(parts("go to the $1 room")) == []
