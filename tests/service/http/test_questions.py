@@ -75,14 +75,16 @@ def test_an_answer_settles_the_question(client: httpx.Client, two_boxes: str) ->
 
 
 @pytest.mark.parametrize(
-    "text", [SHIP, "visit the kitchen twice", "bring the sphere"]
-)  # a thing, a reading, what is left out
-def test_none_of_the_choices_may_be_right(client: httpx.Client, two_boxes: str, text: str) -> None:
-    assert ask(client, text, two_boxes)["outcome"] == "ambiguous"
-    answer = ask(client, text, two_boxes, {"choice": None})
+    ("world", "text"),
+    [("", SHIP), ("city", "visit the zoo twice"), ("house", "switch on the")],  # a thing, a reading, what is left out
+)
+def test_none_of_the_choices_may_be_right(client: httpx.Client, two_boxes: str, world: str, text: str) -> None:
+    environment = world or two_boxes
+    assert ask(client, text, environment)["outcome"] == "ambiguous"
+    answer = ask(client, text, environment, {"choice": None})
     assert (answer["outcome"], answer["question"], answer["candidates"]) == ("unknown", None, [])
     assert len(answer["nearest"]) == 3
-    body = {"text": text, "environment": two_boxes, "answers": [{"choice": None}]}
+    body = {"text": text, "environment": environment, "answers": [{"choice": None}]}
     check_problem(client.post("/plan", json=body), "not-understood", 422, ["/text"])
     more = {**body, "answers": [{"choice": None}, {"choice": None}]}
     check_problem(client.post("/translate", json=more), "wrong-answer", 422, ["/answers/1"])
