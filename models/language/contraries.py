@@ -82,7 +82,7 @@ def contrary(spoken: Sequence[str], task: ContextualQuery, taught: Iterable[str]
 
 
 def _undone_by(verb: str) -> Iterator[str]:
-    yield from sorted(_listed()[verb])
+    yield from sorted(_listed().get(verb, ()))
     for prefix in _PREFIXES:
         yield prefix + verb
         if verb.startswith(prefix):
@@ -98,7 +98,7 @@ def _listed() -> Mapping[str, frozenset[str]]:
         for verbs, against in ((one, other), (other, one)):
             for verb in verbs:
                 found[verb] |= against
-    return found
+    return dict(found)
 
 
 def _forms(verb: str) -> set[str]:
