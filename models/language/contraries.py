@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 
 from models.language.teaching.utterance import DETERMINERS
 from models.language.translation import NEGATIONS
@@ -67,18 +67,38 @@ def contrary(spoken: Sequence[str], task: ContextualQuery, taught: Iterable[str]
     if not NEGATIONS.isdisjoint(spoken):
         return None
     own = {*task.task.split("_"), *taught}
-    arguments = [tuple(argument.split()) for argument in task.arguments]
-    for at, word in enumerate(spoken):
-        if word in own or (at and spoken[at - 1] in DETERMINERS):
-            continue
-        particle = _PARTICLES.get(word, "")
-        if particle in own and particle not in spoken and _goes_with(spoken, at, own, arguments):
-            return word, particle
-        if any(_stands_at(spoken, at + 1, argument) for argument in arguments):
-            undone = next((verb for verb in _undone_by(word) if not own.isdisjoint(_forms(verb))), None)
+    for before, after in _around(spoken, task):
+        verb = _word(spoken, before)
+        if verb in _PARTICLES and _word(spoken, before - 1) in own and _is_contrary(verb, own, spoken):
+            return verb, _PARTICLES[verb]  # "turn off the lamp"
+        particle = _word(spoken, after)
+        if particle in _PARTICLES and verb in own and _is_contrary(particle, own, spoken):
+            return particle, _PARTICLES[particle]  # "turn the lamp off"
+        if verb and verb not in own and _word(spoken, before - 1) not in DETERMINERS:
+            undone = next((undone for undone in _undone_by(verb) if not own.isdisjoint(_forms(undone))), None)
             if undone is not None:
-                return word, undone
+                return verb, undone
     return None
+
+
+def _around(spoken: Sequence[str], task: ContextualQuery) -> Iterator[tuple[int, int]]:
+    """The places of the words before and after each mention of an argument, a determiner belonging to it."""
+    for argument in task.arguments:
+        named = tuple(argument.split())
+        for begin in range(len(spoken) - len(named) + 1):
+            if tuple(spoken[begin : begin + len(named)]) == named:
+                yield begin - 1 - (begin > 0 and spoken[begin - 1] in DETERMINERS), begin + len(named)
+
+
+def _word(spoken: Sequence[str], place: int) -> str:
+    """The word at a place; nothing beyond the ends."""
+    return spoken[place] if 0 <= place < len(spoken) else ""
+
+
+def _is_contrary(particle: str, own: set[str], spoken: Sequence[str]) -> bool:
+    """Whether a particle is known only by the one that it is the contrary of, which the command does not have."""
+    other = _PARTICLES[particle]
+    return particle not in own and other in own and other not in spoken
 
 
 def _undone_by(verb: str) -> Iterator[str]:
@@ -101,22 +121,8 @@ def _listed() -> Mapping[str, frozenset[str]]:
     return dict(found)
 
 
-def _forms(verb: str) -> set[str]:
+@lru_cache(maxsize=1_024)
+def _forms(verb: str) -> frozenset[str]:
     """The verb with its regular endings, and what is not a word: "opening", "closing", "closeing"."""
     stems = {verb, verb.removesuffix("e"), verb + verb[-1]}
-    return {stem + ending for stem in stems for ending in _ENDINGS if ending or stem == verb}
-
-
-def _goes_with(spoken: Sequence[str], at: int, own: set[str], arguments: Sequence[tuple[str, ...]]) -> bool:
-    """Whether the word at a place goes with a verb that is known: "turn off the lamp", "turn the lamp off"."""
-    if at and spoken[at - 1] in own and any(_stands_at(spoken, at + 1, argument) for argument in arguments):
-        return True
-    begins = (begin for argument in arguments for begin in range(1, at) if _stands_at(spoken, begin, argument, ends=at))
-    return any(spoken[begin - 1] in own for begin in begins)
-
-
-def _stands_at(spoken: Sequence[str], at: int, argument: tuple[str, ...], *, ends: int | None = None) -> bool:
-    """Whether an argument stands at a place, with a determiner or without, and ends before another."""
-    begin = at + (at < len(spoken) and spoken[at] in DETERMINERS and spoken[at] not in argument[:1])
-    end = begin + len(argument)
-    return tuple(spoken[begin:end]) == argument and (ends is None or end == ends)
+    return frozenset(stem + ending for stem in stems for ending in _ENDINGS if ending or stem == verb)
