@@ -28,6 +28,7 @@ class HumanCourse:
 
     Attributes:
         checked: those that are only looked at.
+        own: what the translator can say of the templates itself.
         known: words that get embeddings besides those of the commands.
         drawn: commands in an epoch.
     """

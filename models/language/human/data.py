@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import ast
 import csv
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from models.language.errors import VocabularyError
+from models.language.human.spelling import in_one_spelling
 
 FOLDS = 5
-_BARE = re.compile(r"\Afinally ([^()]+)\Z")
 SOURCES = (
     "drone, cleanup, pick and their -few files: github.com/UM-ARM-Lab/Efficient-Eng-2-LTL (Pan et al. 2023); "
     "lang2ltl-lifted.csv: github.com/h2r/Lang2LTL"
@@ -53,19 +52,14 @@ def read_commands(folder: Path, name: str) -> list[Command]:
     for line, row in _rows(file, ("fold", "text", "canonical"), delimiter="\t"):
         if row["fold"] not in map(str, range(FOLDS)):
             raise HumanDataError(f"{file}, line {line}: the fold is {row['fold']!r}, not 0 to {FOLDS - 1}")
-        commands.append(Command(row["text"], spelled(row["canonical"]), int(row["fold"])))
+        commands.append(Command(row["text"], in_one_spelling(row["canonical"]), int(row["fold"])))
     return commands
 
 
 def read_few(folder: Path, name: str) -> list[Command]:
     """The published small training set of `NAME-few.tsv`; raises as `read_commands` does."""
     rows = _rows(folder / f"{name}-few.tsv", ("text", "canonical"), delimiter="\t")
-    return [Command(row["text"], spelled(row["canonical"])) for _, row in rows]
-
-
-def spelled(formula: str) -> str:
-    """A formula in one spelling: CleanUp has `finally go to ...` alone, and `finally ( go to ... )` within others."""
-    return _BARE.sub(r"finally ( \1 )", formula)
+    return [Command(row["text"], in_one_spelling(row["canonical"])) for _, row in rows]
 
 
 def read_utterances(folder: Path) -> list[Utterance]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 _MARKS = ("(", ")", ",")
+_BARE = re.compile(r"\Afinally ([^()]+)\Z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +31,11 @@ class Spelled:
         """The same with the operands of commutative operators in order."""
         operands = [operand.sorted(commutative) for operand in self.operands]
         return Spelled(self.head, tuple(sorted(operands, key=str) if self.head in commutative else operands))
+
+
+def in_one_spelling(formula: str) -> str:
+    """CleanUp has `finally go to ...` alone, and `finally ( go to ... )` within others: both are the latter."""
+    return _BARE.sub(r"finally ( \1 )", formula)
 
 
 def read(text: str) -> Spelled | None:

@@ -13,7 +13,6 @@ from models.language.human.data import (
     read_commands,
     read_few,
     read_utterances,
-    spelled,
 )
 
 
@@ -23,18 +22,6 @@ def test_commands_are_read_with_their_folds(tmp_path: Path) -> None:
     (tmp_path / "drone-few.tsv").write_text("text\tcanonical\nred room\tfinally ( the red room )\n")
     assert read_commands(tmp_path, "drone") == [Command('go to "the" red room .', "finally ( the red room )", 3)]
     assert read_few(tmp_path, "drone") == [Command("red room", "finally ( the red room )")]
-
-
-@pytest.mark.parametrize(
-    ("formula", "expected"),
-    [
-        ("finally go to the red room", "finally ( go to the red room )"),
-        ("finally ( go to the red room )", "finally ( go to the red room )"),
-        ("and ( finally ( red ) , globally ( not ( blue ) ) )", "and ( finally ( red ) , globally ( not ( blue ) ) )"),
-    ],
-)
-def test_formulas_have_one_spelling(formula: str, expected: str) -> None:
-    assert spelled(formula) == expected
 
 
 def test_utterances_are_read_with_their_propositions(tmp_path: Path) -> None:

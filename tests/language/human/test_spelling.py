@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language.human.spelling import Spelled, read
+from models.language.human.spelling import Spelled, in_one_spelling, read
 
 FORMULAS = st.recursive(
     st.sampled_from(["$1", "the red room", "go to the $2 room"]).map(Spelled),
@@ -41,3 +41,15 @@ def test_the_parts_of_a_formula() -> None:
 @pytest.mark.parametrize("text", ["finally ( a ) )", "finally ( a", "and ( a , )  b", "a )", ", a"])
 def test_what_is_amiss_is_no_formula(text: str) -> None:
     assert read(text) is None
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        ("finally go to the red room", "finally ( go to the red room )"),
+        ("finally ( go to the red room )", "finally ( go to the red room )"),
+        ("and ( finally ( red ) , globally ( not ( blue ) ) )", "and ( finally ( red ) , globally ( not ( blue ) ) )"),
+    ],
+)
+def test_formulas_have_one_spelling(formula: str, expected: str) -> None:
+    assert in_one_spelling(formula) == expected
