@@ -1,4 +1,4 @@
-"""How well tasks are understood that were taught with one example, or with five.
+"""How well tasks are understood that were taught with one example, or with five, or with one among better known tasks.
 
     python -m benchmarks.teaching [--part development|held-out|both] [--draws 3] [--failures] [--untaught]
 
@@ -14,6 +14,7 @@ understood with so much, rightly, wrongly, and when all tasks were taught but th
 from __future__ import annotations
 
 import argparse
+import itertools
 import random
 import re
 import statistics
@@ -38,7 +39,10 @@ from models.world import Environment, explain, ground, load_environment
 Part = Literal["development", "held-out"]
 PARTS: tuple[Part, ...] = ("development", "held-out")
 WORLDS = ("household", "warehouse", "laboratory", "garden")
-SHOTS = (1, 5)
+SHOTS = {"1": (1,), "5": (5,), "1, where others have 2, 4 or 8": (1, 2, 4, 8)}
+"""Numbers of examples that a task is taught with, one of which is drawn for each task. Measured are those that got the
+first.
+"""
 BELIEVED = (0.25, 0.5, 0.75)
 """Confidences."""
 
@@ -77,9 +81,11 @@ class Bench:
         environment = self.worlds[world]
         return [_task(entry, world, environment) for entry in _load(f"{world}-{part}")["tasks"]]
 
-    def taught(self, shots: int, generator: random.Random) -> tuple[Hearing, dict[str, list[int]]]:
-        """All tasks taught with as many wordings each; and which."""
-        chosen = {task.name: generator.sample(range(len(task.wordings)), shots) for task in self.tasks}
+    def taught(self, shots: Sequence[int], generator: random.Random) -> tuple[Hearing, dict[str, list[int]]]:
+        """All tasks taught with one of these numbers of wordings each; and which."""
+        counts = shots if len(shots) == 1 else generator.choices(shots, k=len(self.tasks))
+        drawn = zip(self.tasks, itertools.cycle(counts), strict=False)
+        chosen = {task.name: generator.sample(range(len(task.wordings)), count) for task, count in drawn}
         shelf, wordings = [], []
         for task in self.tasks:
             said = [Utterance.of(task.wordings[number], generator.choice(task.queries)) for number in chosen[task.name]]
@@ -91,13 +97,15 @@ class Bench:
         lessons = Lessons(TaughtTranslator.of(wordings), Shelf.of(shelf), self.matcher, functions)
         return Hearing(self.translator, lessons, self.templates.get), chosen
 
-    def measure(self, shots: int, draws: int) -> tuple[Score, Score, Counter[str], list[float]]:
+    def measure(self, label: str, draws: int) -> tuple[Score, Score, Counter[str], list[float]]:
         """Scores of the wordings that were taught, of other ones, failures by task, and the seconds of each text."""
+        shots = SHOTS[label]
         same, other, wrong, seconds = Score(), Score(), Counter[str](), list[float]()
         for draw in range(draws):
-            generator = random.Random(f"{shots}/{draw}")
+            generator = random.Random(f"{label}/{draw}")
             hearing, chosen = self.taught(shots, generator)
-            for task in tqdm(self.tasks, desc=f"{shots} examples, draw {draw + 1}", leave=False):
+            measured = [task for task in self.tasks if len(chosen[task.name]) == shots[0]]
+            for task in tqdm(measured, desc=f"{label} examples, draw {draw + 1}", leave=False):
                 environment = self.worlds[task.world]
                 for number, wording in enumerate(task.wordings):
                     query = generator.choice(task.queries)
@@ -116,13 +124,13 @@ class Bench:
                         score.failures.append(f"{task.name}: {text} -> {heard}")
         return same, other, wrong, seconds
 
-    def doubts(self, shots: int) -> dict[str, list[float]]:
+    def doubts(self, label: str) -> dict[str, list[float]]:
         """The confidences of what other wordings are taken for; 0 where for nothing that makes sense."""
-        generator = random.Random(f"{shots}/0")
-        hearing, chosen = self.taught(shots, generator)
+        generator = random.Random(f"{label}/0")
+        hearing, chosen = self.taught(SHOTS[label], generator)
         assert hearing.lessons is not None
         found: dict[str, list[float]] = {"right": [], "wrong": [], "not taught": []}
-        for task in tqdm(self.tasks, desc=f"{shots} examples", leave=False):
+        for task in tqdm(self.tasks, desc=f"{label} examples", leave=False):
             environment = self.worlds[task.world]
             rest = Shelf.of(known for known in hearing.lessons.shelf.tasks if known.task != task.name)
             without = replace(hearing, lessons=replace(hearing.lessons, shelf=rest, wordings=TaughtTranslator.of([])))
@@ -182,10 +190,10 @@ def print_doubts(bench: Bench) -> None:
     """The table of `--untaught`."""
     columns = "".join(f" at least {least:.0%} sure |" for least in BELIEVED)
     print(f"| examples of each | other wordings |{columns}\n|---|---|{'---|' * len(BELIEVED)}")
-    for shots in SHOTS:
-        for kind, sure in bench.doubts(shots).items():
+    for label, shots in SHOTS.items():
+        for kind, sure in bench.doubts(label).items() if len(shots) == 1 else ():
             cells = "".join(f" {sum(confidence >= least for confidence in sure)} |" for least in BELIEVED)
-            print(f"| {shots} | {kind}: {len(sure)} |{cells}", flush=True)
+            print(f"| {label} | {kind}: {len(sure)} |{cells}", flush=True)
 
 
 def main() -> None:
@@ -203,11 +211,11 @@ def main() -> None:
     print(f"{len(bench.tasks)} tasks taught at once, {options.draws} draws\n")
     print("| examples of each | same wording, other things | other wordings | median | 95th percentile |")
     print("|---|---|---|---|---|")
-    for shots in SHOTS:
-        same, other, wrong, seconds = bench.measure(shots, options.draws)
+    for label in SHOTS:
+        same, other, wrong, seconds = bench.measure(label, options.draws)
         ordered = sorted(seconds)
         times = f"{statistics.median(ordered) * 1e3:.1f} ms | {ordered[int(0.95 * len(ordered))] * 1e3:.1f} ms"
-        print(f"| {shots} | {same.right / same.asked:.1%} | {other.right / other.asked:.1%} | {times} |", flush=True)
+        print(f"| {label} | {same.right / same.asked:.1%} | {other.right / other.asked:.1%} | {times} |", flush=True)
         if options.failures and options.part == "development":
             print(wrong.most_common(12))
             print("\n".join([*same.failures[:20], "", *other.failures[:80]]))

@@ -136,7 +136,7 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
     made = matching.record(settings, seed)
     save_model_of_matching(replace(model, training=made), folder)
     (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")
-    print(f"matching: steepness {model.steepness}, threshold {model.threshold}, lesser {model.lesser}")
+    print(f"matching: steepness {model.steepness}, threshold {model.threshold}, sharpness {model.sharpness}")
 
 
 def _train(

@@ -19,18 +19,19 @@ from models.language.matching.training import Course, batch
 SHELVES, TASKS = 20, 60
 """Shelves that are drawn, and tasks on each."""
 MOST_EXAMPLES = 5
-STEEPNESS = (8.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0)
-LESSER = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
+SHOWN = 2
+"""Cards of each task on a shelf: what it brings about, and its name."""
+STEEPNESS = (8.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0, 35.0, 40.0)
+SHARPNESS = (3.0, 5.0, 8.0, 12.0, 20.0)
 THRESHOLDS = tuple(step / 20 for step in range(4, 30))
 ROLES = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
 
 
 @dataclass(frozen=True, slots=True)
 class _Trial:
-    """A text and the tasks of a shelf: nearness [K] to their examples and cards, and which is right, -1: none."""
+    """A text and the tasks of a shelf: nearness to them for each sharpness, [C, K], and which is right, -1: none."""
 
-    examples: NDArray[np.float32]
-    cards: NDArray[np.float32]
+    near: NDArray[np.float32]
     right: int
 
 
@@ -44,36 +45,38 @@ def calibrated(
     generator = random.Random(seed)
     drawn = [trial for _ in range(SHELVES) for trial in _shelf(heads, course, held_out, refused, generator)]
     trials = _Trials.of(drawn)
-    constants = max(
-        product(STEEPNESS, THRESHOLDS, LESSER),
-        key=lambda c: trials.likelihood(MatchModel(heads, c[0], c[1], c[2], 1.0, {})),
-    )
-    steepness, threshold, lesser = constants
-    return MatchModel(heads, steepness, threshold, lesser, _role_temperature(heads, course, held_out), {})
+    temperature = _role_temperature(heads, course, held_out)
+    models = [
+        MatchModel(heads, steepness, threshold, sharpness, temperature, {})
+        for steepness, threshold, sharpness in product(STEEPNESS, THRESHOLDS, SHARPNESS)
+    ]
+    return max(models, key=trials.likelihood)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Trials:
-    """T trials as arrays [T, K], padded where `here` is false; `right` is -1 where no task is."""
+    """T trials as arrays: nearness for each sharpness [C, T, K], padded where `here` [T, K] is false; `right` [T] is -1
+    where no task is.
+    """
 
-    examples: NDArray[np.float32]
-    cards: NDArray[np.float32]
+    near: NDArray[np.float32]
     here: NDArray[np.bool_]
     right: NDArray[np.intp]
 
     @classmethod
     def of(cls, trials: Sequence[_Trial]) -> _Trials:
-        width = max(len(trial.examples) for trial in trials)
-        examples, cards = (np.zeros((len(trials), width), np.float32) for _ in range(2))
+        width = max(trial.near.shape[1] for trial in trials)
+        near = np.zeros((len(SHARPNESS), len(trials), width), np.float32)
         here = np.zeros((len(trials), width), bool)
         for row, trial in enumerate(trials):
-            count = len(trial.examples)
-            examples[row, :count], cards[row, :count], here[row, :count] = trial.examples, trial.cards, True
-        return cls(examples, cards, here, np.array([trial.right for trial in trials]))
+            count = trial.near.shape[1]
+            near[:, row, :count], here[row, :count] = trial.near, True
+        return cls(near, here, np.array([trial.right for trial in trials]))
 
     def likelihood(self, model: MatchModel) -> float:
         """The logarithm of the probability of what is right in all trials."""
-        points = np.where(self.here, model.points(self.examples, self.cards), -np.inf)
+        near = self.near[SHARPNESS.index(model.sharpness)]
+        points = np.where(self.here, model.points(near), -np.inf)
         mine = np.where(self.right < 0, 0.0, points[np.arange(len(points)), self.right])
         none = np.zeros((len(points), 1))
         return float((mine - np.logaddexp.reduce(np.concatenate([points, none], axis=1), axis=1)).sum())
@@ -86,8 +89,8 @@ def _shelf(
     shown = generator.sample(list(held_out), len(held_out) // 2)
     kept = shown + generator.sample(list(course.lessons), TASKS - len(shown))
     split = [_example_texts(lesson, generator) for lesson in kept]
-    examples = KnownWords.of([_known(heads, course, taught) for taught, _ in split])
-    cards = KnownWords.of([_known(heads, course, lesson.cards) for lesson in kept])
+    taught = ((*texts, *lesson.cards[:SHOWN]) for lesson, (texts, _) in zip(kept, split, strict=True))
+    shelf = KnownWords.of([_known(heads, course, texts) for texts in taught])
     arities = [len(lesson.cards[0].mentions) for lesson in kept]
     asked = [(text, number) for number, lesson in enumerate(shown) for text in split[number][1][:4]]
     absent = [lesson for lesson in held_out if lesson not in shown]
@@ -95,8 +98,8 @@ def _shelf(
     asked += [(text, -1) for text in generator.choices(list(refused), k=len(shown))]
     for (text, right), (command, free) in zip(asked, _read(heads, course, [text for text, _ in asked]), strict=True):
         fitting = [place for place, arity in enumerate(arities) if arity == len(text.mentions)]
-        near = [known.nearness(command, [free])[0, fitting] for known in (examples, cards)]
-        yield _Trial(near[0], near[1], fitting.index(right) if right >= 0 else -1)
+        near = np.stack([shelf.nearness(command, [free], sharpness)[0, fitting] for sharpness in SHARPNESS])
+        yield _Trial(near, fitting.index(right) if right >= 0 else -1)
 
 
 def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said], list[Said]]:

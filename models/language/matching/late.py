@@ -52,13 +52,14 @@ class Command:
 @dataclass(frozen=True, slots=True, eq=False)
 class KnownWords:
     """The free words of known commands as arrays: vectors [T, V], weights [T], where each command begins [N], where the
-    commands of each task that has any begin among these, and which tasks those are.
+    commands of each task that has any begin among these, how many they are, and which tasks those are.
     """
 
     words: Vectors
     weights: Vectors
     begins: NDArray[np.intp]
     firsts: NDArray[np.intp]
+    counts: NDArray[np.intp]
     owners: NDArray[np.intp]
     tasks: int  # K
 
@@ -73,19 +74,25 @@ class KnownWords:
             np.concatenate([one.weights for one in flat]) if flat else np.zeros(0, np.float32),
             _starts(np.array([len(one.weights) for one in flat], dtype=np.intp)),
             _starts(counts[owners]),
+            counts[owners],
             owners,
             len(known),
         )
 
-    def nearness(self, command: Command, ways: Sequence[Sequence[int]]) -> Vectors:
-        """[M, K] of a command, seen in M ways that differ in which words are free, to the nearest command of each task;
-        -1 without. As `models.language.matching.network.Commands.nearness`.
+    def nearness(self, command: Command, ways: Sequence[Sequence[int]], sharpness: float) -> Vectors:
+        """[M, K] of a command, seen in M ways that differ in which words are free, to each task; -1 without commands.
+
+        That to a single command is as `models.language.matching.network.Commands.nearness`. Of several, it is the
+        logarithm of the mean of exp(sharpness * nearness), divided by the sharpness: between their mean, at 0, and the
+        nearest, at infinity. The nearest alone would favour tasks with many examples, of which one is always near.
         """
         near = np.full((len(ways), self.tasks), -1.0, np.float32)
         if len(self.owners):
             each = command.words @ self.words.T  # [S, T]
             for row, free in enumerate(ways):
-                near[row, self.owners] = np.maximum.reduceat(self._both_ways(each[free], command, free), self.firsts)
+                odds = np.exp(sharpness * self._both_ways(each[free], command, free))  # [N]
+                means = np.add.reduceat(odds, self.firsts) / self.counts
+                near[row, self.owners] = np.log(means) / sharpness
         return near
 
     def _both_ways(self, each: Vectors, command: Command, free: Sequence[int]) -> Vectors:

@@ -65,21 +65,20 @@ class Shelf:
 
     tasks: tuple[TaughtTask, ...]
     arities: NDArray[np.intp]  # [K]
-    _examples: KnownWords = field(repr=False)
-    _cards: KnownWords = field(repr=False)
+    _known: KnownWords = field(repr=False)
 
     @classmethod
     def of(cls, tasks: Iterable[TaughtTask]) -> Self:
         """Of some tasks."""
         kept = tuple(tasks)
-        examples, cards = (KnownWords.of(known) for known in ([t.examples for t in kept], [t.cards for t in kept]))
-        return cls(kept, np.array([task.arity for task in kept], np.intp), examples, cards)
+        known = KnownWords.of([(*task.examples, *task.cards) for task in kept])
+        return cls(kept, np.array([task.arity for task in kept], np.intp), known)
 
-    def nearness(self, command: Command, ways: Sequence[Sequence[int]]) -> tuple[Vectors, Vectors]:
-        """[M, K] of a command, seen in M ways that differ in which words are free, to the nearest example of each task,
-        and to its nearest card; -1 without.
+    def nearness(self, command: Command, ways: Sequence[Sequence[int]], sharpness: float) -> Vectors:
+        """[M, K] of a command, seen in M ways that differ in which words are free, to the examples and cards of each
+        task; -1 without any. See `KnownWords.nearness`.
         """
-        return self._examples.nearness(command, ways), self._cards.nearness(command, ways)
+        return self._known.nearness(command, ways, sharpness)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -203,7 +202,8 @@ class Matcher:
             return ()
         (vectors,) = self._vectors([said])
         ways = [seen.free for seen in self._seen(said, vectors)]
-        near = np.maximum(*shelf.nearness(Command.of(self.model.heads, vectors), ways)).max(axis=0)  # [K]
+        command = Command.of(self.model.heads, vectors)
+        near = shelf.nearness(command, ways, self.model.sharpness).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
@@ -211,8 +211,8 @@ class Matcher:
         self, command: Command, seen: Sequence[_Seen], shelf: Shelf, fitting: NDArray[np.bool_]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together."""
-        examples, cards = shelf.nearness(command, [way.free for way in seen])
-        points = self.model.points(examples, cards)  # [M, K]
+        near = shelf.nearness(command, [way.free for way in seen], self.model.sharpness)
+        points = self.model.points(near)  # [M, K]
         for row, way in enumerate(seen):
             usable = fitting & (shelf.arities == len(way.spans))
             odds = np.where(usable, np.exp(points[row] + (LIKELIER if way.named else 0.0)), 0.0)

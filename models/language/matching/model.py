@@ -27,8 +27,9 @@ class MatchModel:
 
     Attributes:
         steepness: of the logarithm of the odds that a task is meant, in the points of nearness.
-        threshold: points at which a task alone on the shelf is as likely to be meant as not.
-        lesser: weight of the lesser of the nearness to an example and to a card.
+        threshold: nearness at which a task alone on the shelf is as likely to be meant as not.
+        sharpness: how much the nearest of the examples and cards of a task counts more than the others; see
+            `models.language.matching.late.KnownWords.nearness`.
         role_temperature: what the nearness of roles is divided by.
         training: how it was made, for the record.
         key: eight bytes that tell models apart, of one that was read from a file.
@@ -37,14 +38,13 @@ class MatchModel:
     heads: Heads
     steepness: float
     threshold: float
-    lesser: float
+    sharpness: float
     role_temperature: float
     training: Mapping[str, str | int | float]
     key: bytes = b""
 
-    def points(self, examples: NDArray[np.float32], cards: NDArray[np.float32]) -> NDArray[np.float64]:
-        """The logarithms of the odds that tasks are meant rather than none, by nearness to their examples and cards."""
-        near = np.maximum(examples, cards) + self.lesser * np.minimum(examples, cards)
+    def points(self, near: NDArray[np.float32]) -> NDArray[np.float64]:
+        """The logarithms of the odds that tasks are meant rather than none, by nearness to what is known of them."""
         return self.steepness * (near.astype(np.float64) - self.threshold)
 
 
@@ -61,7 +61,7 @@ class _NetworkData(_Data):
 class _ModelData(_Data):
     steepness: float = Field(gt=0)
     threshold: float
-    lesser: float = Field(ge=0, le=1)
+    sharpness: float = Field(gt=0, le=100)
     role_temperature: float = Field(gt=0)
     training: dict[str, str | int | float]
     network: _NetworkData
@@ -73,7 +73,7 @@ def save_model(model: MatchModel, folder: Path) -> None:
         network=_NetworkData(**asdict(model.heads.config)),
         steepness=model.steepness,
         threshold=model.threshold,
-        lesser=model.lesser,
+        sharpness=model.sharpness,
         role_temperature=model.role_temperature,
         training=dict(model.training),
     )
@@ -92,5 +92,5 @@ def load_model(folder: Path | None = None) -> MatchModel:
         config = MatchConfig(**data.network.model_dump())
         file = (place / f"{NAME}.safetensors").read_bytes()
         heads = Heads(config, read_tensors(file, config.shapes()))
-    constants = (data.steepness, data.threshold, data.lesser, data.role_temperature)
+    constants = (data.steepness, data.threshold, data.sharpness, data.role_temperature)
     return MatchModel(heads, *constants, data.training, hashlib.sha256(file).digest()[:8])

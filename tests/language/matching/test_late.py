@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from statistics import mean
+
 import numpy as np
 import torch
 from hypothesis import given
@@ -36,18 +40,25 @@ def known(seed: int, count: int) -> Known:
     return Known(words, salience / salience.sum(), np.zeros((0, 2), np.float32))
 
 
+def soft_mean(numbers: Sequence[float], sharpness: float) -> float:
+    return math.log(mean(math.exp(sharpness * number) for number in numbers)) / sharpness
+
+
 @given(st.lists(st.lists(st.integers(1, WORDS), max_size=3), min_size=1, max_size=4), st.data())
-def test_nearness_is_that_of_the_nearest_command_of_a_task(tasks: list[list[int]], data: st.DataObject) -> None:
+def test_nearness_to_a_task_is_a_soft_mean_over_its_commands(tasks: list[list[int]], data: st.DataObject) -> None:
     shelf = [[known(100 * i + j, count) for j, count in enumerate(task)] for i, task in enumerate(tasks)]
     words, salience = drawn(7, WORDS)
     ways = data.draw(st.lists(st.sets(st.integers(0, WORDS - 1), min_size=1).map(sorted), min_size=1, max_size=3))
-    near = KnownWords.of(shelf).nearness(Command(words, salience), ways)
+    sharpness = data.draw(st.sampled_from([1.0, 5.0, 20.0]))
+    near = KnownWords.of(shelf).nearness(Command(words, salience), ways, sharpness)
     for row, free in enumerate(ways):
+        each = [[plain(words[free], salience[free], one.words, one.weights) for one in task] for task in shelf]
         expected = [
-            max((plain(words[free], salience[free], one.words, one.weights) for one in task), default=-1.0)
-            for task in shelf
+            math.log(mean(math.exp(sharpness * n) for n in task)) / sharpness if task else -1.0 for task in each
         ]
         assert np.allclose(near[row], expected, atol=1e-5)
+        between = [(mean(task) - 1e-5, max(task) + 1e-5) for task in each if task]
+        assert all(low <= n <= high for n, (low, high) in zip(near[row, [bool(t) for t in each]], between, strict=True))
 
 
 @given(st.lists(st.sets(st.integers(0, WORDS - 1), min_size=1).map(sorted), min_size=1, max_size=4))
