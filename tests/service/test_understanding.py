@@ -106,7 +106,7 @@ def test_more_readings_are_weighed_than_are_asked_for(services: Services, networ
     network.readings = readings(("visit(sphere)", 0.6), ("fetch(sphere)", 0.3))
     assert [query for query, _ in understood(services, "go to the sphere", candidates=1)] == ["fetch(sphere)"]
     assert network.asked > BEAM_WIDTH
-    assert understood(services, "go to the sphere", None, candidates=1) == [("visit(sphere)", 0.6)]
+    assert [query for query, _ in understood(services, "go to the sphere", None, candidates=1)] == ["visit(sphere)"]
     assert network.asked == 1
 
 

@@ -61,7 +61,7 @@ class _NetworkData(_Data):
 class _ModelData(_Data):
     steepness: float = Field(gt=0)
     threshold: float
-    sharpness: float = Field(gt=0, le=100)
+    sharpness: float = Field(gt=0, le=50)  # beyond 88 its powers are too large for single precision
     role_temperature: float = Field(gt=0)
     training: dict[str, str | int | float]
     network: _NetworkData
