@@ -37,7 +37,7 @@ def understood(parts: tuple[language.Part, ...]) -> Iterator[tuple[str, Formula,
                     yield item["text"], found, environment
     taught = teaching.Bench(parts)
     generator = random.Random(0)
-    hearing, _ = taught.taught(1, generator)
+    hearing, _ = taught.taught((1,), generator)
     for task in taught.tasks:
         environment = taught.worlds[task.world]
         for wording in task.wordings:
