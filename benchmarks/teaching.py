@@ -14,7 +14,6 @@ understood with so much, rightly, wrongly, and when all tasks were taught but th
 from __future__ import annotations
 
 import argparse
-import itertools
 import random
 import re
 import statistics
@@ -83,8 +82,8 @@ class Bench:
 
     def taught(self, shots: Sequence[int], generator: random.Random) -> tuple[Hearing, dict[str, list[int]]]:
         """All tasks taught with one of these numbers of wordings each; and which."""
-        counts = shots if len(shots) == 1 else generator.choices(shots, k=len(self.tasks))
-        drawn = zip(self.tasks, itertools.cycle(counts), strict=False)
+        counts = generator.choices(shots, k=len(self.tasks)) if len(shots) > 1 else [*shots] * len(self.tasks)
+        drawn = zip(self.tasks, counts, strict=True)
         chosen = {task.name: generator.sample(range(len(task.wordings)), count) for task, count in drawn}
         shelf, wordings = [], []
         for task in self.tasks:
