@@ -106,7 +106,8 @@ def test_more_readings_are_weighed_than_are_asked_for(services: Services, networ
     network.readings = readings(("visit(sphere)", 0.6), ("fetch(sphere)", 0.3))
     assert [query for query, _ in understood(services, "go to the sphere", candidates=1)] == ["fetch(sphere)"]
     assert network.asked > BEAM_WIDTH
-    assert [query for query, _ in understood(services, "go to the sphere", None, candidates=1)] == ["visit(sphere)"]
+    far_from_all_taught = "sphere umbrella politics"
+    assert understood(services, far_from_all_taught, None, candidates=1) == [("visit(sphere)", 0.6)]
     assert network.asked == 1
 
 

@@ -53,9 +53,7 @@ def test_nearness_to_a_task_is_a_soft_mean_over_its_commands(tasks: list[list[in
     near = KnownWords.of(shelf).nearness(Command(words, salience), ways, sharpness)
     for row, free in enumerate(ways):
         each = [[plain(words[free], salience[free], one.words, one.weights) for one in task] for task in shelf]
-        expected = [
-            math.log(mean(math.exp(sharpness * n) for n in task)) / sharpness if task else -1.0 for task in each
-        ]
+        expected = [soft_mean(task, sharpness) if task else -1.0 for task in each]
         assert np.allclose(near[row], expected, atol=1e-5)
         between = [(mean(task) - 1e-5, max(task) + 1e-5) for task in each if task]
         assert all(low <= n <= high for n, (low, high) in zip(near[row, [bool(t) for t in each]], between, strict=True))
