@@ -92,6 +92,7 @@ def create_app(settings: Settings, *, warm: bool = True) -> FastAPI:
         keys=KeyRing(settings.api_keys_file) if warm and settings.api_keys_file else None,
         rates=TokenBuckets(settings.rate_limit, settings.rate_burst) if settings.rate_limit else None,
         most=settings.max_in_flight,
+        metrics=metrics,
     )
     if settings.allowed_origins:
         app.add_middleware(CORSMiddleware, **cors(settings.allowed_origins))
@@ -111,6 +112,9 @@ async def _lifespan(settings: Settings, warm: bool, app: FastAPI) -> AsyncIterat
         max_waiting=settings.max_waiting,
         memory_bytes=settings.worker_memory_bytes,
         ended=metrics.called,
+    )
+    metrics.watch(
+        "cqltl_requests_in_flight", "Requests that are being answered.", lambda: float(metrics.requests_in_flight)
     )
     metrics.watch(
         "cqltl_plans_running", "Planning processes of this service that are at work.", lambda: workers.running

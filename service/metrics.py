@@ -33,6 +33,9 @@ SWEEPS = (1, 3, 10, 30, 100, 300, 1_000, 3_000, 10_000)
 class Metrics:
     """Counts and times; any thread may add to them."""
 
+    requests_in_flight = 0
+    """How many the gate has let in and are not yet answered; of the event loop's thread alone."""
+
     def __init__(self) -> None:
         self._registry = found = CollectorRegistry()
         ProcessCollector(registry=found)

@@ -13,15 +13,17 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from service.http.problems import problem_response
 from service.http.scopes import OPEN, UNLIMITED, first_part, scope_of
 from service.keys import ApiKey, KeyRing
+from service.metrics import Metrics
 from service.rates import TokenBuckets
 
 
 class Gate:
     """ASGI middleware: answers 401, 403, 429 and 503 instead of the app. Without keys everybody has all scopes."""
 
-    def __init__(self, app: ASGIApp, *, keys: KeyRing | None, rates: TokenBuckets | None, most: int) -> None:
-        self._app, self._keys, self._rates, self._most = app, keys, rates, most
-        self._in_flight = 0
+    def __init__(
+        self, app: ASGIApp, *, keys: KeyRing | None, rates: TokenBuckets | None, most: int, metrics: Metrics
+    ) -> None:
+        self._app, self._keys, self._rates, self._most, self._metrics = app, keys, rates, most, metrics
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Let the request in, or refuse it."""
@@ -35,15 +37,16 @@ class Gate:
         elif part in UNLIMITED:
             await self._app(scope, receive, send)
         else:
-            self._in_flight += 1
+            self._metrics.requests_in_flight += 1
             try:
                 await self._app(scope, receive, send)
             finally:
-                self._in_flight -= 1
+                self._metrics.requests_in_flight -= 1
 
     def _refused(self, scope: Scope, part: str) -> Response | None:
-        if part not in UNLIMITED and self._in_flight >= self._most:
-            return problem_response("overloaded", f"{self._in_flight} requests are being answered already")
+        in_flight = self._metrics.requests_in_flight
+        if part not in UNLIMITED and in_flight >= self._most:
+            return problem_response("overloaded", f"{in_flight} requests are being answered already")
         key = None if self._keys is None else self._key_of(scope)
         if part not in UNLIMITED and self._rates is not None:
             wait_s = self._rates.take(f"key {key.name}" if key else f"address {_network(scope)}")

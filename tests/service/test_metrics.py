@@ -44,6 +44,7 @@ def test_what_was_done_is_counted(server: httpx.Client) -> None:
     assert found["cqltl_plan_product_states_count", ()] == found["cqltl_plan_sweeps_count", ()] == 2
     assert found["cqltl_plan_seconds_sum", ()] > 0
     assert found["cqltl_plans_running", ()] == found["cqltl_plans_waiting", ()] == 0
+    assert found["cqltl_requests_in_flight", ()] == 0
     assert found["process_open_fds", ()] > 0
 
 

@@ -16,6 +16,7 @@ from service.app import create_app
 from service.http.gate import Gate
 from service.http.scopes import OPEN, first_part, scope_of
 from service.keys import KeyRing, add_key
+from service.metrics import Metrics
 from service.rates import TokenBuckets
 from service.settings import Settings
 from tests.service.conftest import check_problem
@@ -74,7 +75,7 @@ def test_scopes(method: str, path: str, scope: str) -> None:
 def test_keys(tmp_path: Path) -> None:
     path = tmp_path / "keys"
     reader, boss = (f"Bearer {add_key(path, name, [name])}" for name in ("read", "admin"))
-    gate = Gate(_app, keys=KeyRing(path), rates=None, most=9)
+    gate = Gate(_app, keys=KeyRing(path), rates=None, most=9, metrics=Metrics())
     asked = {
         ("GET", "/templates", ""): 401,
         ("GET", "/templates", "Bearer wrong"): 401,
@@ -97,7 +98,7 @@ def test_keys(tmp_path: Path) -> None:
 def test_rates_are_of_keys_and_else_of_addresses(tmp_path: Path) -> None:
     path = tmp_path / "keys"
     one, two = (f"Bearer {add_key(path, name, ['read'])}" for name in ("one", "two"))
-    gate = Gate(_app, keys=KeyRing(path), rates=TokenBuckets(0.01, 2), most=9)
+    gate = Gate(_app, keys=KeyRing(path), rates=TokenBuckets(0.01, 2), most=9, metrics=Metrics())
     get = ("GET", "/jobs")
     assert statuses(gate, (*get, one), (*get, one), (*get, one)) == [200, 200, 429]
     assert statuses(gate, (*get, two), address="192.0.2.9") == [200]
@@ -117,16 +118,19 @@ def test_only_so_many_at_a_time() -> None:
                 await leave.wait()
             await _app(scope, receive, send)
 
-        async with client_of(Gate(slow, keys=None, rates=None, most=2)) as client:
+        metrics = Metrics()
+        async with client_of(Gate(slow, keys=None, rates=None, most=2, metrics=metrics)) as client:
             waiting = [asyncio.create_task(client.post("/plan")) for _ in range(2)]
             await asyncio.sleep(0.05)
             refused = await client.post("/plan")
             check_problem(refused, "overloaded", 503)
+            assert metrics.requests_in_flight == 2
             assert int(refused.headers["retry-after"]) >= 1
             assert (await client.get("/livez")).status_code == 200
             leave.set()
             assert [response.status_code for response in await asyncio.gather(*waiting)] == [200, 200]
             assert (await client.post("/plan")).status_code == 200
+            assert metrics.requests_in_flight == 0
 
     asyncio.run(crowd())
 

@@ -169,6 +169,14 @@ def wait_for(client: httpx.Client, url: str, *states: str, within_s: float = 180
         time.sleep(0.05)
 
 
+def await_requests(client: httpx.Client, number: int, within_s: float = 30.0) -> None:
+    """Return once the service is answering that many requests at a time."""
+    until = time.monotonic() + within_s
+    while f"\ncqltl_requests_in_flight {number:.1f}\n" not in client.get("/metrics").text:
+        assert time.monotonic() < until
+        time.sleep(0.05)
+
+
 def kill(pid: int) -> None:
     """End a process without asking it."""
     os.kill(pid, signal.SIGKILL)

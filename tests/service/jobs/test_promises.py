@@ -24,6 +24,7 @@ from tests.service.jobs.deployments import (
     Deployment,
     Embedded,
     Queued,
+    await_requests,
     kill,
     order,
     task,
@@ -171,6 +172,7 @@ def test_what_is_open_does_not_keep_a_service_from_stopping(deploy: Deploy) -> N
         waiting = others.submit(wait_for_a_plan)
         lines = response.iter_lines()
         assert "retry: 1000" in [next(lines) for _ in range(3)]
+        await_requests(deployment.client, 2)  # a request that no one has read yet is lost with its connection
         began = time.monotonic()
         deployment.server.send_signal(signal.SIGTERM)
         for _ in lines:
