@@ -95,8 +95,11 @@ def _default() -> Translator:
 
 
 def _load_matcher() -> Matcher:
+    from threadpoolctl import threadpool_limits
+
     from models.language.matching import Matcher
 
+    threadpool_limits(1, "blas")  # as ONNX Runtime: of two threads for products this small one waits for the other
     return Matcher.load()
 
 

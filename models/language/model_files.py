@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -17,25 +18,37 @@ from models.language.errors import WeightsError
 from models.language.runtime import Tensors
 
 
-def write_model(tensors: Tensors, description: BaseModel, folder: Path, name: str) -> None:
-    """Write both files, replacing what is there; the same model gives the same bytes."""
+def write_model(
+    tensors: Tensors, description: BaseModel, folder: Path, name: str, *, halved: Collection[str] = ()
+) -> None:
+    """Write both files, replacing what is there, the tensors `halved` in half precision; the same model gives the same
+    bytes.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    data = save_tensors({key: np.ascontiguousarray(tensor) for key, tensor in sorted(tensors.items())})
+    kept = {key: tensor.astype(_kind(key in halved)) for key, tensor in sorted(tensors.items())}
+    data = save_tensors({key: np.ascontiguousarray(tensor) for key, tensor in kept.items()})
     (folder / f"{name}.safetensors").write_bytes(data)
     text = json.dumps(description.model_dump(mode="json"), indent=1, ensure_ascii=False)
     (folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
 
 
-def read_tensors(data: bytes, shapes: Mapping[str, tuple[int, ...]]) -> Tensors:
-    """The tensors of a file; raises ValueError unless they are those, of these shapes."""
+def read_tensors(data: bytes, shapes: Mapping[str, tuple[int, ...]], *, halved: Collection[str] = ()) -> Tensors:
+    """The tensors of a file, in single precision; raises ValueError unless they are those, of these shapes, and those
+    that are `halved` in half precision.
+    """
     tensors: Tensors = load_tensors(data)
     for name in sorted({*tensors, *shapes}):
         found = tensors[name].shape if name in tensors else "missing"
         if found != shapes.get(name):
             raise ValueError(f"{name} is {found}, and should be {shapes.get(name, 'missing')}")
-        if tensors[name].dtype != np.float32:
-            raise ValueError(f"{name} holds {tensors[name].dtype}, and should hold float32")
-    return tensors
+        wanted = _kind(name in halved)
+        if tensors[name].dtype != wanted:
+            raise ValueError(f"{name} holds {tensors[name].dtype}, and should hold {wanted}")
+    return {name: tensor.astype(np.float32, copy=False) for name, tensor in tensors.items()}
+
+
+def _kind(half: bool) -> np.dtype[Any]:
+    return np.dtype(np.float16 if half else np.float32)
 
 
 @contextmanager

@@ -37,8 +37,10 @@ from models.language.composition.marks import MarkedReader
 from models.language.dataset import Domain, no_task
 from models.language.dataset.tasks import task_classes
 from models.language.encoder import Encoder, WordReader, encoder
+from models.language.encoder.minilm import tensors
 from models.language.encoder.torch_layers import on
 from models.language.matching import training as matching
+from models.language.matching.batches import Course
 from models.language.matching.calibration import calibrated
 from models.language.matching.lessons import lesson, paper_classes, without_task
 from models.language.matching.model import save_model as save_model_of_matching
@@ -49,10 +51,12 @@ from models.language.tokens import words
 
 REFUSED = 2_000
 """Texts without a task that the matching network is shown."""
-HELD_OUT = 6
+HELD_OUT = 12
 """Every so many-th task class is not fitted to: the matching network is calibrated on these."""
-QUICK_SHARE, QUICK_STEPS = 0.01, 10
-"""Of a quick run: part of the texts of its one epoch, and steps of the matching network."""
+QUICK_SHARE, QUICK_STEPS, QUICK_EVERY = 0.01, 10, 8
+"""Of a quick run: part of the texts of its one epoch, steps of the matching network, and every which task class it is
+shown.
+"""
 SHIPPED = Path(__file__).parent / "weights"
 
 
@@ -92,7 +96,8 @@ def _parts(options: argparse.Namespace) -> Sequence[Callable[[], object]]:
         settings = _copynet_settings(options)
         parts += [partial(copynet.train_paper, (domain,), settings, log=print, **common) for domain in domains]
     if "matching" in asked:
-        parts.append(partial(train_matching, _matching_settings(options), **common))
+        every = QUICK_EVERY if options.quick else 1
+        parts.append(partial(train_matching, _matching_settings(options), every=every, **common))
     return parts
 
 
@@ -111,10 +116,12 @@ def train_composition(settings: spans.Settings, *, member: int, seed: int, folde
     _train(lessons, settings, seed=own, folder=folder, name=NAMES[member], words=words, device=device)
 
 
-def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> None:
-    """Train the network that compares commands with what was taught, and write it with its curve."""
+def train_matching(settings: matching.Settings, *, every: int = 1, seed: int, folder: Path) -> None:
+    """Train the network that compares commands with what was taught, on every so many-th task class, and write it with
+    its curve.
+    """
     generator = random.Random(seed)
-    classes = [*task_classes(), *paper_classes(generator)]
+    classes = [*task_classes(), *paper_classes(generator)][::every]
     lessons = [lesson(task, generator) for task in classes]
     held_out = [entry for number, entry in enumerate(lessons) if number % HELD_OUT == HELD_OUT - 1]
     fitted = [entry for entry in lessons if entry not in held_out]
@@ -123,7 +130,7 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
         [without_task(text) for text in generator.sample(sorted(part), min(REFUSED, len(part))) if words(text)]
         for part in (texts.training, texts.held_out)
     )
-    course = matching.Course.of(lessons, [*refused, *unseen], encoder())
+    course = Course.of(lessons, [*refused, *unseen], encoder())
     course = replace(course, lessons=fitted, refused=refused)
     curve: list[dict[str, float]] = []
 
@@ -131,8 +138,8 @@ def train_matching(settings: matching.Settings, *, seed: int, folder: Path) -> N
         curve.append(step)
         print("matching", " ".join(f"{key} {value}" for key, value in step.items()), flush=True)
 
-    network = matching.fit(course, settings, seed=seed, log=log)
-    model = calibrated(network.heads(), course, held_out, unseen, seed=seed)
+    network = matching.fit(course, tensors(), settings, seed=seed, log=log)
+    model = calibrated(network, course, held_out, unseen, seed=seed)
     made = matching.record(settings, seed)
     save_model_of_matching(replace(model, training=made), folder)
     (folder / "matching-curve.json").write_text(json.dumps({"training": made, "steps": curve}, indent=1) + "\n")

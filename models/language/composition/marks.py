@@ -12,7 +12,7 @@ from typing import Self
 
 import numpy as np
 
-from models.language.encoder import DeepReader, Encoder, WordReader, encoder
+from models.language.encoder import Encoder, WordReader, encoder
 from models.language.runtime import Floats
 from models.language.tokens import is_mark
 
@@ -26,7 +26,7 @@ class MarkedReader:
     @classmethod
     def load(cls, words: Encoder | None = None) -> Self:
         """What the networks of compositions read with: all layers of an encoder, or of the one that is installed."""
-        return cls(DeepReader(words or encoder()))
+        return cls((words or encoder()).deep)
 
     @property
     def size(self) -> int:

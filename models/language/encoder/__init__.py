@@ -1,4 +1,4 @@
-"""What words mean where they stand: MiniLM, a small language model, which is never trained here."""
+"""What words mean where they stand: MiniLM, a small language model, whose lower layers are never trained here."""
 
 from models.language.encoder.memory import RememberingReader, WordReader
 from models.language.encoder.minilm import DeepReader, Encoder, encoder

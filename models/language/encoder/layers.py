@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from models.language.runtime import CONTRIBUTED, Floats, Graph, Tensors
 
-HEADS = 12
+HEADS, WIDER = 12, 4
+"""Parts that attention is split into, and how many times wider the feed-forward network is than what it is given."""
+ATTENTION = ("query", "key", "value")
 EPSILON = 1e-12
 """What layer normalisation adds to a variance."""
 
@@ -37,15 +39,35 @@ def build(tensors: Tensors, numbers: Iterable[int]) -> Layers:
     graph = Graph()
     states, after = "states", []
     for number in numbers:
-        states = _layer(graph, tensors, f"encoder.layer.{number}", states)
+        states = _layer(graph, tensors, layer_name(number), states)
         after.append(states)
     session = graph.session({"states": (np.float32, 3), "here": (np.int32, 2)}, after)
     return lambda states, here: session.run(states=states, here=here)
 
 
+def layer_name(number: int) -> str:
+    """What the names of the tensors of a layer begin with."""
+    return f"encoder.layer.{number}"
+
+
+def layer_shapes(number: int, hidden: int) -> dict[str, tuple[int, ...]]:
+    """The shapes of the tensors of a layer, by name."""
+    name, wide = layer_name(number), WIDER * hidden
+    linear = {
+        **{f"attention.self.{part}": (hidden, hidden) for part in ATTENTION},
+        "attention.output.dense": (hidden, hidden),
+        "intermediate.dense": (wide, hidden),
+        "output.dense": (hidden, wide),
+    }
+    shapes: dict[str, tuple[int, ...]] = {f"{name}.{part}.weight": shape for part, shape in linear.items()}
+    shapes |= {f"{name}.{part}.bias": shape[:1] for part, shape in linear.items()}
+    norms = [f"{name}.{part}.LayerNorm" for part in ("attention.output", "output")]
+    return shapes | {f"{norm}.{kind}": (hidden,) for norm in norms for kind in ("weight", "bias")}
+
+
 def joined(tensors: Tensors, name: str) -> tuple[Floats, Floats]:
     """The weight [3 H, H] and the bias [3 H] of queries, keys and values side by side."""
-    parts = [f"{name}.attention.self.{part}" for part in ("query", "key", "value")]
+    parts = [f"{name}.attention.self.{part}" for part in ATTENTION]
     weight, bias = (np.concatenate([tensors[f"{part}.{kind}"] for part in parts]) for kind in ("weight", "bias"))
     return weight, bias
 

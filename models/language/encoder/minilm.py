@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError
 from safetensors.numpy import load as load_tensors
 
-from models.language.encoder.layers import EPSILON, Build, build
+from models.language.encoder.layers import EPSILON, Build, Layers, build
 from models.language.encoder.pieces import Pieces
 from models.language.errors import WeightsError
 from models.language.runtime import Floats, Tensors
@@ -43,7 +43,7 @@ LOWER = 3
 
 
 @dataclass(frozen=True, slots=True)
-class _Read:
+class LowerRead:
     """States [B, P, H] after each of the first LOWER layers, which pieces count [B, P], and for each text the places of
     the words that its pieces, between the first and the last, belong to.
     """
@@ -80,11 +80,10 @@ class Encoder:
             self._kind = kinds[0]
             self._norm = tuple(tensors[f"embeddings.LayerNorm.{kind}"] for kind in ("weight", "bias"))
             self._lower = build(tensors, range(LOWER))
-            self._upper = build(tensors, range(LOWER, LAYERS))
+            self.deep = DeepReader(self, build(tensors, range(LOWER, LAYERS)))
         except (KeyError, IndexError) as error:
             raise WeightsError(f"the weights of MiniLM lack {error}") from None
         self._lately = lru_cache(maxsize=REMEMBERED)(self._read_now)
-        self._lately_deep = lru_cache(maxsize=REMEMBERED)(self._read_deeply_now)
 
     @classmethod
     def load(cls, folder: Path | None = None, *, build: Build = build) -> Self:
@@ -94,14 +93,7 @@ class Encoder:
             WeightsError: a file is missing or damaged.
         """
         place = _installed() if folder is None else folder
-        pieces = Pieces.load(place / "vocab.txt")
-        try:
-            tensors = load_tensors((place / "model.safetensors").read_bytes())
-        except OSError as error:
-            raise WeightsError(f"MiniLM cannot be read: {error.strerror} ({error.filename})") from None
-        except SafetensorError as error:
-            raise WeightsError(f"the weights of MiniLM are damaged: {error}") from None
-        return cls(pieces, tensors, build)
+        return cls(Pieces.load(place / "vocab.txt"), tensors(place), build)
 
     @property
     def hidden(self) -> int:
@@ -115,36 +107,23 @@ class Encoder:
 
     def read(self, texts: Sequence[Sequence[str]]) -> Floats:
         """[B, S, D] the vectors of folded words; 0 beyond the end of a text, and beyond MOST_PIECES pieces."""
-        read = self._read(texts)
+        read = self.lower(texts)
         return read.of_words([read.after[number] for number in KEPT], max(map(len, texts)))
 
-    def read_deeply(self, texts: Sequence[Sequence[str]]) -> Floats:
-        """[B, S, 2 H] the vectors of folded words after LOWER layers, and after all; otherwise as `read`."""
-        if len(texts) <= FEW:
-            return self._lately_deep(tuple(map(tuple, texts)))
-        return self._read_deeply_now(texts)
-
-    def _read_deeply_now(self, texts: Sequence[Sequence[str]]) -> Floats:
-        read = self._read(texts)
-        states = self._upper(read.after[-1], read.here)[-1]
-        found = read.of_words([read.after[-1], states], max(map(len, texts)))
-        found.setflags(write=False)  # it is given to all who ask
-        return found
-
-    def _read(self, texts: Sequence[Sequence[str]]) -> _Read:
-        """What was lately read of few texts is kept: several networks ask for it."""
+    def lower(self, texts: Sequence[Sequence[str]]) -> LowerRead:
+        """What the lower layers make of folded words. That of few texts is kept: several networks ask for it."""
         if len(texts) <= FEW:
             return self._lately(tuple(map(tuple, texts)))
         return self._read_now(texts)
 
-    def _read_now(self, texts: Sequence[Sequence[str]]) -> _Read:
+    def _read_now(self, texts: Sequence[Sequence[str]]) -> LowerRead:
         cut = [self.pieces.cut_text(text, MOST_PIECES) for text in texts]
         numbers = np.zeros((len(texts), max(len(found) for found, _ in cut)), np.intp)  # [B, P]
         here = np.zeros(numbers.shape, np.int32)
         for row, (found, _) in enumerate(cut):
             numbers[row, : len(found)], here[row, : len(found)] = found, 1
         after = self._lower(self._embedded(numbers), here)
-        return _Read(after, here, [owners for _, owners in cut])
+        return LowerRead(after, here, [owners for _, owners in cut])
 
     def _embedded(self, numbers: NDArray[np.intp]) -> Floats:
         """[B, P, H] what the layers are given of the pieces with these numbers [B, P]."""
@@ -156,20 +135,45 @@ class Encoder:
         return found
 
 
-@dataclass(frozen=True, slots=True)
 class DeepReader:
-    """Reads words with all layers of an encoder: as `Encoder.read_deeply`."""
+    """Reads words with all layers: the lower ones of an encoder, and upper ones, MiniLM's or others in their place."""
 
-    encoder: Encoder
+    def __init__(self, encoder: Encoder, upper: Layers) -> None:
+        self._encoder, self._upper = encoder, upper
+        self._lately = lru_cache(maxsize=REMEMBERED)(self._read_now)
 
     @property
     def size(self) -> int:
         """Numbers in the vector of a word, D."""
-        return 2 * self.encoder.hidden
+        return 2 * self._encoder.hidden
 
     def read(self, texts: Sequence[Sequence[str]]) -> Floats:
-        """[B, S, D] the vectors of folded words; 0 beyond the end of a text."""
-        return self.encoder.read_deeply(texts)
+        """[B, S, D] the vectors of folded words after LOWER layers, and after all; otherwise as `Encoder.read`."""
+        if len(texts) <= FEW:
+            return self._lately(tuple(map(tuple, texts)))
+        return self._read_now(texts)
+
+    def _read_now(self, texts: Sequence[Sequence[str]]) -> Floats:
+        read = self._encoder.lower(texts)
+        states = self._upper(read.after[-1], read.here)[-1]
+        found = read.of_words([read.after[-1], states], max(map(len, texts)))
+        found.setflags(write=False)  # it is given to all who ask
+        return found
+
+
+def tensors(folder: Path | None = None) -> Tensors:
+    """The tensors of the model of a folder with `model.safetensors`, or of the one that is installed.
+
+    Raises:
+        WeightsError: the file is missing or damaged.
+    """
+    try:
+        found: Tensors = load_tensors(((folder or _installed()) / "model.safetensors").read_bytes())
+    except OSError as error:
+        raise WeightsError(f"MiniLM cannot be read: {error.strerror} ({error.filename})") from None
+    except SafetensorError as error:
+        raise WeightsError(f"the weights of MiniLM are damaged: {error}") from None
+    return found
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Layers of BERT on a device of torch's: to train networks on a GPU."""
+"""Layers of BERT as torch's: to train networks on a GPU, or to train the layers themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 from torch.nn import functional
 
-from models.language.encoder.layers import EPSILON, HEADS, Build, Layers, joined
+from models.language.encoder.layers import ATTENTION, EPSILON, HEADS, Build, Layers, joined, layer_name
 from models.language.runtime import Floats, Tensors
 
 L = TypeVar("L", bound=nn.Module)
@@ -21,7 +21,7 @@ def on(device: str) -> Build:
     """What builds layers that run on a device."""
 
     def build(tensors: Tensors, numbers: Iterable[int]) -> Layers:
-        layers = [_Layer(tensors, f"encoder.layer.{number}").to(device) for number in numbers]
+        layers = [Layer(tensors, layer_name(number)).to(device) for number in numbers]
 
         @torch.inference_mode()
         def run(states: Floats, here: NDArray[np.int32]) -> Sequence[Floats]:
@@ -37,7 +37,9 @@ def on(device: str) -> Build:
     return build
 
 
-class _Layer(nn.Module):
+class Layer(nn.Module):
+    """One layer; the same computation as `models.language.encoder.layers.build` lays out."""
+
     def __init__(self, tensors: Tensors, name: str) -> None:
         super().__init__()
         self.attend = _linear(*joined(tensors, name))
@@ -54,6 +56,22 @@ class _Layer(nn.Module):
         states = self.attended_norm(states + self.attended(heads.transpose(1, 2).flatten(2)))
         result: Tensor = self.narrow_norm(states + self.narrow(functional.gelu(self.widen(states))))
         return result
+
+    def tensors(self, name: str) -> Tensors:
+        """What the layer is made of, named as MiniLM's: the inverse of making it."""
+        found: dict[str, Tensor] = {}
+        for kind, whole in (("weight", self.attend.weight), ("bias", self.attend.bias)):
+            found |= {f"attention.self.{p}.{kind}": t for p, t in zip(ATTENTION, whole.chunk(3), strict=True)}
+        parts: dict[str, nn.Linear | nn.LayerNorm] = {
+            "attention.output.dense": self.attended,
+            "attention.output.LayerNorm": self.attended_norm,
+            "intermediate.dense": self.widen,
+            "output.dense": self.narrow,
+            "output.LayerNorm": self.narrow_norm,
+        }
+        for part, layer in parts.items():
+            found |= {f"{part}.weight": layer.weight, f"{part}.bias": layer.bias}
+        return {f"{name}.{part}": tensor.detach().cpu().numpy().copy() for part, tensor in found.items()}
 
 
 def _named(tensors: Tensors, name: str) -> tuple[Floats, Floats]:

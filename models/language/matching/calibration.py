@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations, product
 
 import numpy as np
 from numpy.typing import NDArray
 
+from models.language.matching.batches import Course, Text
 from models.language.matching.heads import Heads
-from models.language.matching.late import Command, Known, KnownWords
 from models.language.matching.lessons import Lesson, Said
 from models.language.matching.model import MatchModel
-from models.language.matching.training import Course, batch
+from models.language.matching.nearness import Known, KnownCommands, free_words
+from models.language.matching.network import MatchNet
+from models.language.runtime import Floats
 
 SHELVES, TASKS = 20, 60
 """Shelves that are drawn, and tasks on each."""
@@ -27,6 +29,24 @@ THRESHOLDS = tuple(step / 20 for step in range(4, 30))
 ROLES = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Readings:
+    """The network's readings of texts, whose vectors [S, D] are known."""
+
+    heads: Heads
+    read: Mapping[Text, Floats]
+
+    def asked(self, texts: Sequence[Said]) -> Floats:
+        """[N, V] what texts ask for."""
+        vectors = (self.read[text.words].astype(np.float32) for text in texts)
+        frees = (free_words(len(text.words), text.every) for text in texts)
+        return np.concatenate([self.heads.asked(v, [free]) for v, free in zip(vectors, frees, strict=True)])
+
+    def roles(self, text: Said) -> Floats:
+        """[M, R] the parts that its mentions play."""
+        return self.heads.roles(self.read[text.words].astype(np.float32), text.mentions)
+
+
 @dataclass(frozen=True, slots=True)
 class _Trial:
     """A text and the tasks of a shelf: nearness to them for each sharpness, [C, K], and which is right, -1: none."""
@@ -36,18 +56,20 @@ class _Trial:
 
 
 def calibrated(
-    heads: Heads, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], *, seed: int
+    network: MatchNet, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], *, seed: int
 ) -> MatchModel:
     """What was learned with the constants under which what is right in tasks that it never saw is likeliest.
 
     The tasks with as many arguments as the text are those that compete, as in use.
     """
     generator = random.Random(seed)
-    drawn = [trial for _ in range(SHELVES) for trial in _shelf(heads, course, held_out, refused, generator)]
+    readings = _Readings(network.heads(), course.read(network))
+    drawn = [trial for _ in range(SHELVES) for trial in _shelf(readings, course, held_out, refused, generator)]
     trials = _Trials.of(drawn)
-    temperature = _role_temperature(heads, course, held_out)
+    made = (readings.heads, network.upper())
+    temperature = _role_temperature(readings, held_out)
     models = [
-        MatchModel(heads, steepness, threshold, sharpness, temperature, {})
+        MatchModel(*made, steepness, threshold, sharpness, temperature, {})
         for steepness, threshold, sharpness in product(STEEPNESS, THRESHOLDS, SHARPNESS)
     ]
     return max(models, key=trials.likelihood)
@@ -83,23 +105,30 @@ class _Trials:
 
 
 def _shelf(
-    heads: Heads, course: Course, held_out: Sequence[Lesson], refused: Sequence[Said], generator: random.Random
+    readings: _Readings,
+    course: Course,
+    held_out: Sequence[Lesson],
+    refused: Sequence[Said],
+    generator: random.Random,
 ) -> Iterator[_Trial]:
     """Texts with a shelf on which their tasks are or are not: half of the held-out ones, and tasks that were seen."""
     shown = generator.sample(list(held_out), len(held_out) // 2)
     kept = shown + generator.sample(list(course.lessons), TASKS - len(shown))
     split = [_example_texts(lesson, generator) for lesson in kept]
     taught = ((*texts, *lesson.cards[:SHOWN]) for lesson, (texts, _) in zip(kept, split, strict=True))
-    shelf = KnownWords.of([_known(heads, course, texts) for texts in taught])
+    none = np.zeros((0, readings.heads.config.role), np.float32)
+    shelf = KnownCommands.of([[Known(asked, none) for asked in readings.asked(texts)] for texts in taught])
     arities = [len(lesson.cards[0].mentions) for lesson in kept]
     asked = [(text, number) for number, lesson in enumerate(shown) for text in split[number][1][:4]]
     absent = [lesson for lesson in held_out if lesson not in shown]
     asked += [(generator.choice(generator.choice(lesson.wordings)), -1) for lesson in absent]
     asked += [(text, -1) for text in generator.choices(list(refused), k=len(shown))]
-    for (text, right), (command, free) in zip(asked, _read(heads, course, [text for text, _ in asked]), strict=True):
+    vectors = readings.asked([text for text, _ in asked])
+    near = [shelf.nearness(vectors, sharpness) for sharpness in SHARPNESS]
+    for row, (text, right) in enumerate(asked):
         fitting = [place for place, arity in enumerate(arities) if arity == len(text.mentions)]
-        near = np.stack([shelf.nearness(command, [free], sharpness)[0, fitting] for sharpness in SHARPNESS])
-        yield _Trial(near, fitting.index(right) if right >= 0 else -1)
+        place = fitting.index(right) if right >= 0 else -1
+        yield _Trial(np.stack([each[row, fitting] for each in near]), place)
 
 
 def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said], list[Said]]:
@@ -110,23 +139,7 @@ def _example_texts(lesson: Lesson, generator: random.Random) -> tuple[list[Said]
     return drawn[:count], drawn[count:]
 
 
-def _known(heads: Heads, course: Course, texts: Sequence[Said]) -> list[Known]:
-    """As known commands without arguments."""
-    none = np.zeros((0, heads.config.role), np.float32)
-    return [Known(command.words[free], command.weights(free), none) for command, free in _read(heads, course, texts)]
-
-
-def _read(heads: Heads, course: Course, texts: Sequence[Said]) -> list[tuple[Command, list[int]]]:
-    """What texts ask for, with their free words."""
-    vectors, free, _, _ = batch(texts, course)
-    read = vectors.numpy()
-    return [
-        (Command.of(heads, read[row, : len(text.words)]), free[row].nonzero().flatten().tolist())
-        for row, text in enumerate(texts)
-    ]
-
-
-def _role_temperature(heads: Heads, course: Course, held_out: Sequence[Lesson]) -> float:
+def _role_temperature(readings: _Readings, held_out: Sequence[Lesson]) -> float:
     """That under which the right order of mentions is likeliest, with one example."""
     trials = []
     for lesson in held_out:
@@ -134,7 +147,7 @@ def _role_temperature(heads: Heads, course: Course, held_out: Sequence[Lesson]) 
         if count < 2:
             continue
         for (first, *_), (second, *_) in zip(lesson.wordings, lesson.wordings[1:], strict=False):
-            one, other = (heads.roles(course.read[t.words].float().numpy(), t.mentions) for t in (first, second))
+            one, other = readings.roles(first), readings.roles(second)
             trials.append([float((one[list(order)] * other).sum()) for order in permutations(range(count))])
 
     def likelihood(temperature: float) -> float:

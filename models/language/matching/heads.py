@@ -1,6 +1,6 @@
 """What a trained network of `models.language.matching.network` makes of the vectors of one text, without torch.
 
-Shapes: S words, D encoder, V its upper half, R of roles, M mentions, 3 tags.
+Shapes: S words, D encoder, V its upper half, R of roles, M mentions, W ways to see which words are free, 3 tags.
 """
 
 from __future__ import annotations
@@ -26,15 +26,10 @@ class Heads:
     config: MatchConfig
     tensors: Tensors
 
-    def words(self, vectors: Floats) -> Floats:
-        """[S, V] unit vectors of what words with the vectors [S, D] ask for."""
-        upper = vectors[:, self.config.word :]
-        return _unit(upper + self._linear("word", upper))
-
-    def salience(self, vectors: Floats) -> Floats:
-        """[S] how much each word matters."""
-        found: Floats = np.logaddexp(0, self._linear("salience", vectors)[:, 0])
-        return found
+    def asked(self, vectors: Floats, ways: Sequence[Sequence[int]]) -> Floats:
+        """[W, V] unit vectors of what a text with the vectors [S, D] asks for, by which of its words are free."""
+        upper = vectors[:, self.config.hidden :]
+        return _unit(np.stack([upper[list(free)].mean(axis=0) for free in ways]))
 
     def roles(self, vectors: Floats, mentions: Sequence[Span]) -> Floats:
         """[M, R] unit vectors of the parts that mentions play."""

@@ -13,7 +13,7 @@ from models.language.spans.names import names
 from models.language.spans.tags import Span
 from models.language.tokens import words
 
-DRAWS, CARDS = 3, 3
+DRAWS, CARDS = 2, 2
 """Texts drawn of each wording, and of each card."""
 NAMES = 24
 """Names drawn for each argument of a class of the paper."""

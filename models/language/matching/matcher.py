@@ -1,7 +1,7 @@
 """Reads commands by comparing them with what was taught: examples of tasks, and the cards of tasks.
 
-Shapes: S words, F of them free (they name nothing), V vectors of words, R of roles, N examples or cards with T free
-words in all, M ways to see what is mentioned, K tasks.
+Shapes: S words, D of their vectors, V vectors of what is asked for, R of roles, M ways to see what is mentioned, K
+tasks.
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from models.language.encoder import Encoder, encoder
-from models.language.matching.config import ON, OUTSIDE
-from models.language.matching.late import Command, Known, KnownWords, Vectors
+from models.language.encoder import DeepReader, encoder
+from models.language.encoder.layers import build
+from models.language.matching.config import ON, OUTSIDE, UPPER
 from models.language.matching.model import MatchModel, load_model
+from models.language.matching.nearness import Known, KnownCommands, Vectors, free_words
 from models.language.spans.decoding import best_sequences, log_totals
 from models.language.spans.tags import Span
 from models.language.spans.translator import quantified
@@ -28,6 +29,7 @@ from models.language.teaching.wording import CONNECTIVES
 from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
+from models.world import quantifiers
 
 SEQUENCES = 6
 """Ways to see what a text mentions that are looked at."""
@@ -65,20 +67,20 @@ class Shelf:
 
     tasks: tuple[TaughtTask, ...]
     arities: NDArray[np.intp]  # [K]
-    _known: KnownWords = field(repr=False)
+    _known: KnownCommands = field(repr=False)
 
     @classmethod
     def of(cls, tasks: Iterable[TaughtTask]) -> Self:
         """Of some tasks."""
         kept = tuple(tasks)
-        known = KnownWords.of([(*task.examples, *task.cards) for task in kept])
+        known = KnownCommands.of([(*task.examples, *task.cards) for task in kept])
         return cls(kept, np.array([task.arity for task in kept], np.intp), known)
 
-    def nearness(self, command: Command, ways: Sequence[Sequence[int]], sharpness: float) -> Vectors:
-        """[M, K] of a command, seen in M ways that differ in which words are free, to the examples and cards of each
-        task; -1 without any. See `KnownWords.nearness`.
+    def nearness(self, asked: Vectors, sharpness: float) -> Vectors:
+        """[M, K] of what a text asks for, [M, V], to the examples and cards of each task; -1 without any. See
+        `KnownCommands.nearness`.
         """
-        return self._known.nearness(command, ways, sharpness)
+        return self._known.nearness(asked, sharpness)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,43 +88,41 @@ class Matcher:
     """Reads texts, and compares them with a shelf."""
 
     model: MatchModel
-    encoder: Encoder
+    reader: DeepReader
 
     @classmethod
     def load(cls, folder: Path | None = None) -> Self:
         """With the model of a folder, or the one that is shipped; raises WeightsError."""
-        return cls(load_model(folder), encoder())
+        model = load_model(folder)
+        return cls(model, DeepReader(encoder(), build(model.upper, UPPER)))
 
     def to_bytes(self, known: Known) -> bytes:
-        """What was read, in half precision: the key of the model, the number of free words, these with their weights,
-        and the roles.
-        """
-        numbers = np.concatenate([known.words.ravel(), known.weights, known.roles.ravel()])
-        return self.model.key + len(known.weights).to_bytes(2, "little") + numbers.astype("<f2").tobytes()
+        """What was read, in half precision: the key of the model, what is asked for, and the roles."""
+        numbers = np.concatenate([known.asked, known.roles.ravel()])
+        return self.model.key + numbers.astype("<f2").tobytes()
 
     def from_bytes(self, data: bytes | None) -> Known | None:
         """The inverse of `to_bytes`; None of what another model read, or of nothing."""
         key, config = self.model.key, self.model.heads.config
         if data is None or data[: len(key)] != key:
             return None
-        free, begin = int.from_bytes(data[len(key) : len(key) + 2], "little"), len(key) + 2
-        numbers = np.frombuffer(data[begin:], "<f2").astype(np.float32)
-        words, weights, roles = np.split(numbers, [free * config.word, free * (config.word + 1)])
-        return Known(words.reshape(free, config.word), weights, roles.reshape(-1, config.role))
+        numbers = np.frombuffer(data[len(key) :], "<f2").astype(np.float32)
+        return Known(numbers[: config.hidden], numbers[config.hidden :].reshape(-1, config.role))
 
     def known(self, utterances: Sequence[Utterance]) -> list[Known]:
         """What there is to compare with in utterances of which it is known what they mention."""
         if not utterances:
             return []
-        vectors = self.encoder.read_deeply([utterance.words for utterance in utterances])
+        vectors = self.reader.read([utterance.words for utterance in utterances])
         return [self._known(vectors[row, : len(each.words)], each) for row, each in enumerate(utterances)]
 
     def _known(self, vectors: Vectors, utterance: Utterance) -> Known:
-        command = Command.of(self.model.heads, vectors)
-        free = _free(len(utterance.words), [span for spans in utterance.mentions for span in spans])
+        free = free_words(len(utterance.words), [span for spans in utterance.mentions for span in spans])
+        (asked,) = self.model.heads.asked(vectors, [free])
         roles = self.model.heads.roles(vectors, [spans[0] for spans in utterance.mentions])
-        parts = (command.words[free], command.weights(free), roles)
-        return Known(*(part.astype("<f2").astype(np.float32) for part in parts))  # as it will be read from a store
+        return Known(
+            *(part.astype("<f2").astype(np.float32) for part in (asked, roles))
+        )  # as it will be read from a store
 
     def match(
         self,
@@ -174,8 +174,7 @@ class Matcher:
         named: Sequence[Span],
     ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
-        command = Command.of(self.model.heads, vectors)
-        for task, mentions, likely in self._tasks(command, self._seen(said, vectors, named), shelf, fitting):
+        for task, mentions, likely in self._tasks(self._seen(said, vectors, named), shelf, fitting):
             if any(not CONNECTIVES.isdisjoint(said[slice(*span)]) for span in mentions.spans):
                 continue  # no phrase goes on in another clause
             if sum(end - begin for begin, end in mentions.spans) >= len(said):
@@ -192,7 +191,7 @@ class Matcher:
         """[S, D] of the words of each text."""
         if not texts:
             return []
-        read = self.encoder.read_deeply(texts)
+        read = self.reader.read(texts)
         return [read[row, : len(text)] for row, text in enumerate(texts)]
 
     def nearest(self, text: str, shelf: Shelf, *, count: int) -> tuple[tuple[str, float], ...]:
@@ -201,24 +200,33 @@ class Matcher:
         if not said or not shelf.tasks:
             return ()
         (vectors,) = self._vectors([said])
-        ways = [seen.free for seen in self._seen(said, vectors)]
-        command = Command.of(self.model.heads, vectors)
-        near = shelf.nearness(command, ways, self.model.sharpness).max(axis=0)  # [K]
+        asked = np.stack([seen.asked for seen in self._seen(said, vectors)])
+        near = shelf.nearness(asked, self.model.sharpness).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, command: Command, seen: Sequence[_Seen], shelf: Shelf, fitting: NDArray[np.bool_]
+        self, seen: Sequence[_Seen], shelf: Shelf, fitting: NDArray[np.bool_]
     ) -> Iterator[tuple[_Candidate, _Seen, float]]:
-        """Tasks with what the text mentions, and the probabilities of both together."""
-        near = shelf.nearness(command, [way.free for way in seen], self.model.sharpness)
+        """Tasks with what the text mentions, and the probabilities of both together.
+
+        Whether a task is meant at all is asked of each way to see the text by itself: it is no likelier a command for
+        there being many ways. Which task it is then, and so which way is right, is asked of all of them together.
+        """
+        near = shelf.nearness(np.stack([way.asked for way in seen]), self.model.sharpness)
         points = self.model.points(near)  # [M, K]
+        usable = fitting & (shelf.arities == np.array([[len(way.spans)] for way in seen]))
+        likelier = np.array([[LIKELIER if way.named else 0.0] for way in seen])
+        before = np.array([[way.probability] for way in seen])
+        odds = np.where(usable, np.exp(points + likelier), 0.0)  # [M, K]
+        each = odds.sum(axis=1, keepdims=True)
+        asked = (before * each / (1.0 + each)).sum()  # 1 for none of them
+        odds *= before
+        if not odds.any():
+            return
         for row, way in enumerate(seen):
-            usable = fitting & (shelf.arities == len(way.spans))
-            odds = np.where(usable, np.exp(points[row] + (LIKELIER if way.named else 0.0)), 0.0)
-            total = 1.0 + odds.sum()  # 1 for none of them
-            for place in np.argsort(-odds, kind="stable")[:SEQUENCES]:
-                likely = float(way.probability * odds[place] / total)
+            for place in np.argsort(-odds[row], kind="stable")[:SEQUENCES]:
+                likely = float(asked * odds[row, place] / odds.sum())
                 if likely >= LEAST:
                     yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
 
@@ -227,23 +235,25 @@ class Matcher:
         emissions = self.model.heads.tags(vectors)[None]  # [1, S, L]
         moves, start = (scores[None] for scores in self.model.heads.moves())
         (total,) = log_totals(emissions, moves, start)
-        ways: dict[tuple[Span, ...], float] = {_distinct(said, named): NAMED} if named else {}
+        expected = _expected(said, named)
+        ways: dict[tuple[Span, ...], float] = dict.fromkeys(expected, NAMED / max(1, len(expected)))
         share = 1.0 - sum(ways.values())
         for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES)[0]:
             spans = _distinct(said, _spans(tags))
             ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
-        known, every = _distinct(said, named), list(dict.fromkeys(span for spans in ways for span in spans))
+        every = list(dict.fromkeys(span for spans in ways for span in spans))
         roles = dict(zip(every, self.model.heads.roles(vectors, every), strict=True))
         none = np.zeros((0, self.model.heads.config.role), np.float32)
+        asked = self.model.heads.asked(vectors, [free_words(len(said), spans) for spans in ways])
         return [
             _Seen(
                 spans,
                 share,
-                _free(len(said), spans),
+                asked[row],
                 np.stack([roles[span] for span in spans]) if spans else none,
-                bool(named) and spans == known,
+                spans in expected,
             )
-            for spans, share in ways.items()
+            for row, (spans, share) in enumerate(ways.items())
         ]
 
 
@@ -253,9 +263,9 @@ class _Seen:
 
     spans: tuple[Span, ...]
     probability: float
-    free: list[int]  # places of the words that name nothing
+    asked: Vectors  # [V]
     roles: Vectors  # [mentions, R]
-    named: bool  # whether the mentions are what the text names in the environment
+    named: bool  # whether that is expected of what the text names in the environment
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -293,15 +303,22 @@ def _spans(tags: Sequence[int]) -> list[Span]:
     return spans
 
 
+def _expected(said: Sequence[str], named: Sequence[Span]) -> list[tuple[Span, ...]]:
+    """The ways to see a text that names something: it is about that, or, where only "all the lights" are named, about
+    no thing in particular: "turn off all the lights" may be a task of its own.
+    """
+    if not named:
+        return []
+    wide = (quantified(said, span, named) for span in named)
+    of_all = all(
+        quantifiers.quantified(" ".join(said[slice(*span)])).quantifier is quantifiers.Quantifier.ALL for span in wide
+    )
+    return [_distinct(said, named), ()] if of_all else [_distinct(said, named)]
+
+
 def _distinct(said: Sequence[str], spans: Iterable[Span]) -> tuple[Span, ...]:
     """What is mentioned twice in the same words counts once."""
     first: dict[tuple[str, ...], Span] = {}
     for span in spans:
         first.setdefault(tuple(said[slice(*span)]), span)
     return tuple(first.values())
-
-
-def _free(count: int, spans: Iterable[Span]) -> list[int]:
-    """The places of the words that name nothing; all where nothing else is said."""
-    named = {place for begin, end in spans for place in range(begin, end)}
-    return [place for place in range(count) if place not in named] or list(range(count))

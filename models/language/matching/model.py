@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from models.language.matching.config import MatchConfig
 from models.language.matching.heads import Heads
 from models.language.model_files import read_tensors, reading, write_model
+from models.language.runtime import Tensors
 
 NAME = "matching"
 
@@ -26,16 +27,18 @@ class MatchModel:
     """A network with what makes probabilities of nearness.
 
     Attributes:
+        upper: MiniLM's upper layers as they were fitted, named as MiniLM's.
         steepness: of the logarithm of the odds that a task is meant, in the points of nearness.
         threshold: nearness at which a task alone on the shelf is as likely to be meant as not.
         sharpness: how much the nearest of the examples and cards of a task counts more than the others; see
-            `models.language.matching.late.KnownWords.nearness`.
+            `models.language.matching.nearness.KnownCommands.nearness`.
         role_temperature: what the nearness of roles is divided by.
         training: how it was made, for the record.
         key: eight bytes that tell models apart, of one that was read from a file.
     """
 
     heads: Heads
+    upper: Tensors
     steepness: float
     threshold: float
     sharpness: float
@@ -68,7 +71,7 @@ class _ModelData(_Data):
 
 
 def save_model(model: MatchModel, folder: Path) -> None:
-    """Write both files, replacing what is there; the same model gives the same bytes."""
+    """Write both files, replacing what is there; the same model gives the same bytes. Layers are in half precision."""
     data = _ModelData(
         network=_NetworkData(**asdict(model.heads.config)),
         steepness=model.steepness,
@@ -77,7 +80,7 @@ def save_model(model: MatchModel, folder: Path) -> None:
         role_temperature=model.role_temperature,
         training=dict(model.training),
     )
-    write_model(model.heads.tensors, data, folder, NAME)
+    write_model({**model.heads.tensors, **model.upper}, data, folder, NAME, halved=model.upper)
 
 
 def load_model(folder: Path | None = None) -> MatchModel:
@@ -91,6 +94,9 @@ def load_model(folder: Path | None = None) -> MatchModel:
         data = _ModelData.model_validate_json((place / f"{NAME}.json").read_text(encoding="utf-8"))
         config = MatchConfig(**data.network.model_dump())
         file = (place / f"{NAME}.safetensors").read_bytes()
-        heads = Heads(config, read_tensors(file, config.shapes()))
+        upper, shapes = config.upper_shapes(), config.shapes()
+        tensors = read_tensors(file, shapes | upper, halved=upper)
+        heads = Heads(config, {name: tensors[name] for name in shapes})
+        made = (heads, {name: tensors[name] for name in upper})
     constants = (data.steepness, data.threshold, data.sharpness, data.role_temperature)
-    return MatchModel(heads, *constants, data.training, hashlib.sha256(file).digest()[:8])
+    return MatchModel(*made, *constants, data.training, hashlib.sha256(file).digest()[:8])

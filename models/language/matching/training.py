@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 
-import numpy as np
 import torch
 from torch import Tensor
 from torch.nn import functional
 
-from models.language.encoder import Encoder
-from models.language.matching.config import BEGIN, ON, OUTSIDE, MatchConfig
-from models.language.matching.lessons import Lesson, Said, texts_of
+from models.language.matching.batches import Course
+from models.language.matching.config import MatchConfig
+from models.language.matching.lessons import Lesson, Said
 from models.language.matching.network import MatchNet
+from models.language.runtime import Tensors
 from models.language.spans.crf import log_partition, score
 
-TEMPERATURE = 0.07
+TEMPERATURE = 0.05
 """Temperature of the comparison: similarities are divided by it."""
 ROLE_TEMPERATURE = 0.1
 WORLDS = 3
@@ -28,45 +30,34 @@ WORLDS = 3
 class Settings:
     """The hyper-parameters of a run."""
 
-    steps: int = 300
+    steps: int = 600
     tasks: int = 32  # compared in a step
-    refused: int = 16  # texts in a step that ask for nothing
-    learning_rate: float = 1e-3  # AdamW; falls to zero along a cosine
+    refused: int = 48  # texts in a step that ask for nothing
+    learning_rate: float = 1e-3  # of AdamW
+    layer_learning_rate: float = 1e-4  # of MiniLM's layers
     decay: float = 1e-2
     clip: float = 1.0
     dropout: float = 0.3
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Course:
-    """Lessons and texts that ask for nothing, with the vectors [S, D] of all of them, in half precision."""
-
-    lessons: Sequence[Lesson]
-    refused: Sequence[Said]
-    read: dict[tuple[str, ...], Tensor]
-
-    @classmethod
-    def of(cls, lessons: Sequence[Lesson], refused: Sequence[Said], encoder: Encoder) -> Course:
-        """Read every text once."""
-        said = sorted({text.words for text in [*texts_of(lessons), *refused]}, key=len)
-        read: dict[tuple[str, ...], Tensor] = {}
-        for start in range(0, len(said), 64):
-            part = said[start : start + 64]
-            vectors = torch.from_numpy(encoder.read_deeply(part).astype(np.float16))
-            read.update((text, found[: len(text)].clone()) for text, found in zip(part, vectors, strict=True))
-        return cls(lessons, refused, read)
-
-
-def fit(course: Course, settings: Settings, *, seed: int, log: Callable[[dict[str, float]], None] | None) -> MatchNet:
-    """A network fitted to a course; the same seed gives the same one on the same kind of machine."""
+def fit(
+    course: Course, upper: Tensors, settings: Settings, *, seed: int, log: Callable[[dict[str, float]], None] | None
+) -> MatchNet:
+    """A network fitted to a course, beginning with MiniLM's tensors `upper`; the same seed gives the same one on the
+    same kind of machine.
+    """
     generator = random.Random(seed)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
-        size = next(iter(course.read.values())).shape[1]
-        network = MatchNet(MatchConfig(vector=size, dropout=settings.dropout)).train()
-        network.centre(torch.cat([course.read[text.words] for text in texts_of(course.lessons)]).float())
-        optimizer = torch.optim.AdamW(network.parameters(), settings.learning_rate, weight_decay=settings.decay)
-        schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, settings.steps)
+        size = 2 * next(iter(course.lower.values())).states.shape[1]
+        network = MatchNet(MatchConfig(vector=size, dropout=settings.dropout), upper).train()
+        heads = [tensor for name, tensor in network.named_parameters() if not name.startswith("layers.")]
+        groups = [
+            {"params": heads, "lr": settings.learning_rate},
+            {"params": list(network.layers.parameters()), "lr": settings.layer_learning_rate},
+        ]
+        optimizer = torch.optim.AdamW(groups, weight_decay=settings.decay)
+        schedule = torch.optim.lr_scheduler.LambdaLR(optimizer, partial(_share_of_rate, settings.steps))
         for step in range(1, settings.steps + 1):
             losses = _losses(network, course, settings, generator)
             optimizer.zero_grad()
@@ -79,16 +70,22 @@ def fit(course: Course, settings: Settings, *, seed: int, log: Callable[[dict[st
     return network.eval()
 
 
+def _share_of_rate(steps: int, step: int) -> float:
+    """Of the learning rate: it rises for the first tenth of the steps, and falls to zero along a cosine."""
+    return min(1.0, 10 * (step + 1) / steps) * (1 + math.cos(math.pi * step / steps)) / 2
+
+
 def _losses(network: MatchNet, course: Course, settings: Settings, generator: random.Random) -> dict[str, Tensor]:
     drawn = _draw(course.lessons, settings.tasks, generator)
     texts = [text for group in drawn for text in group]
     owners = torch.tensor([number for number, group in enumerate(drawn) for _ in group])
     refused = generator.choices(course.refused, k=settings.refused)
-    vectors, free, tags, lengths = batch([*texts, *refused], course)
-    near = network.commands(vectors).nearness(free)
+    batch = course.batch([*texts, *refused])
+    vectors = network.read(batch.states, batch.here, batch.pooling)
+    asked = network.asked(vectors, batch.free)  # [N + refused, H]
     return {
-        "commands": _contrast(near[: len(texts)], owners),
-        "tags": 0.3 * _tagging(network, *(part[: len(texts)] for part in (vectors, tags, lengths))),
+        "commands": _contrast(asked[: len(texts)] @ asked.T, owners),
+        "tags": 0.3 * _tagging(network, *(part[: len(texts)] for part in (vectors, batch.tags, batch.lengths))),
         "roles": 0.3 * _role_loss(network, drawn, vectors),
     }
 
@@ -106,22 +103,6 @@ def _draw(lessons: Sequence[Lesson], count: int, generator: random.Random) -> li
             kinds[2] = lesson.cards
         groups.append([generator.choice(kind) for kind in kinds])
     return groups
-
-
-def batch(texts: Sequence[Said], course: Course) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-    """The vectors [B, S, D], free words [B, S], tags [B, S] and lengths [B] of texts."""
-    read = [course.read[text.words].float() for text in texts]
-    vectors = torch.nn.utils.rnn.pad_sequence(read, batch_first=True)
-    free = torch.zeros(vectors.shape[:2])
-    tags = torch.full(vectors.shape[:2], OUTSIDE)
-    for row, text in enumerate(texts):
-        free[row, : len(text.words)] = 1.0
-        for begin, end in text.every:
-            free[row, begin:end] = 0.0
-            tags[row, begin], tags[row, begin + 1 : end] = BEGIN, ON
-        if not free[row].any():
-            free[row, : len(text.words)] = 1.0
-    return vectors, free, tags, torch.tensor([len(text.words) for text in texts])
 
 
 def _contrast(near: Tensor, owners: Tensor) -> Tensor:

@@ -68,7 +68,7 @@ def test_the_layers_compute_what_torchs_encoder_does() -> None:
         states = _reference(weights, f"encoder.layer.{number}")(states)
         after.append(states.detach()[0, 1:-1].numpy())
     lower, deep = ([*KEPT], [LOWER - 1, LAYERS - 1])
-    for found, kept in ((encoder().read([SHIP])[0], lower), (encoder().read_deeply([SHIP])[0], deep)):
+    for found, kept in ((encoder().read([SHIP])[0], lower), (encoder().deep.read([SHIP])[0], deep)):
         np.testing.assert_allclose(found, np.concatenate([after[number] for number in kept], axis=1), atol=1e-4)
 
 
@@ -93,7 +93,7 @@ def test_torch_reads_alike() -> None:
     other = Encoder.load(build=on("cpu"))
     texts = [SHIP, ("go",), SHIP[:4]]
     np.testing.assert_allclose(other.read(texts), encoder().read(texts), atol=1e-4)
-    np.testing.assert_allclose(other.read_deeply(texts), encoder().read_deeply(texts), atol=1e-4)
+    np.testing.assert_allclose(other.deep.read(texts), encoder().deep.read(texts), atol=1e-4)
 
 
 def _reference(weights: dict[str, Tensor], name: str) -> nn.TransformerEncoderLayer:

@@ -53,6 +53,23 @@ def test_tasks_that_do_not_fit_are_passed_over(matcher: Matcher, shelf: Shelf) -
     assert all(not str(translation.query).startswith("polish(") for translation in found)
 
 
+def test_a_task_of_its_own_for_all_of_a_kind(matcher: Matcher) -> None:
+    """Where all things of a kind are named, a task without arguments may be meant, which is told by its words."""
+    lamps = taught(matcher, "turn_off(lamp)", "eventually {1} is off", "turn off the lamp")
+    dark = taught(matcher, "lights_out()", "eventually it is dark", "turn off all the lights")
+    shelf = Shelf.of([lamps, dark])
+    expected = {
+        "please switch off every light": ((4, 5), "lights_out()"),
+        "please switch off the light": ((4, 5), "turn_off(light)"),
+    }
+    for text, (span, query) in expected.items():
+        (best,) = matcher.match(text, shelf, candidates=1, named=lambda _, span=span: [span])
+        assert str(best.query) == query
+        assert best.confidence > 0.5
+    (best,) = matcher.match("turn off every lamp", Shelf.of([lamps]), candidates=1, named=lambda _: [(3, 4)])
+    assert str(best.query) == "turn_off(every lamp)"
+
+
 def test_nothing_is_near_to_an_empty_shelf(matcher: Matcher) -> None:
     empty = Shelf.of([])
     assert matcher.match("polish the mirror", empty, candidates=3) == ()
@@ -70,9 +87,8 @@ def test_what_was_read_survives_storage(matcher: Matcher) -> None:
     data = matcher.to_bytes(known)
     back = matcher.from_bytes(data)
     assert back is not None
-    assert back.words.shape == known.words.shape
-    assert np.allclose(back.words, known.words, atol=1e-3)
-    assert np.allclose(back.weights, known.weights, atol=1e-3)
+    assert back.asked.shape == known.asked.shape
+    assert np.allclose(back.asked, known.asked, atol=1e-3)
     assert back.roles.shape == known.roles.shape
     assert np.allclose(back.roles, known.roles, atol=1e-3)
     assert matcher.from_bytes(b"another model" + data) is None
