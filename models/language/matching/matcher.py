@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from models.language.encoder import DeepReader, encoder
 from models.language.encoder.layers import build
-from models.language.matching.config import ON, OUTSIDE, UPPER
+from models.language.matching.config import UPPER
+from models.language.matching.mentions import Seen, ways_to_see
 from models.language.matching.model import MatchModel, load_model
 from models.language.matching.nearness import Known, KnownCommands, Vectors, free_words
-from models.language.spans.decoding import best_sequences, log_totals
 from models.language.spans.tags import Span
 from models.language.spans.translator import quantified
 from models.language.teaching.utterance import Utterance, plain
@@ -29,20 +29,13 @@ from models.language.teaching.wording import CONNECTIVES
 from models.language.tokens import words
 from models.language.translation import Translation
 from models.queries import ContextualQuery
-from models.world import quantifiers
 
-SEQUENCES = 6
-"""Ways to see what a text mentions that are looked at."""
+MOST_TASKS = 6
+"""Tasks that are looked at for each way to see what a text mentions."""
 LEAST = 1e-3
 """Readings less probable than this are not given."""
 MOST_MENTIONS = 5
 """Texts with more mentions are not matched with their parts: the orders would be too many."""
-
-
-NAMED = 0.75
-"""Probability that a command is about all that it names in the environment, and nothing else."""
-
-
 LIKELIER = 1.5
 """Logarithm of how much likelier than others a text is to be a command that names things of the environment."""
 
@@ -120,9 +113,8 @@ class Matcher:
         free = free_words(len(utterance.words), [span for spans in utterance.mentions for span in spans])
         (asked,) = self.model.heads.asked(vectors, [free])
         roles = self.model.heads.roles(vectors, [spans[0] for spans in utterance.mentions])
-        return Known(
-            *(part.astype("<f2").astype(np.float32) for part in (asked, roles))
-        )  # as it will be read from a store
+        halved = (part.astype("<f2").astype(np.float32) for part in (asked, roles))  # as they are read from a store
+        return Known(*halved)
 
     def match(
         self,
@@ -174,7 +166,7 @@ class Matcher:
         named: Sequence[Span],
     ) -> tuple[Translation, ...]:
         found: dict[ContextualQuery, float] = {}
-        for task, mentions, likely in self._tasks(self._seen(said, vectors, named), shelf, fitting):
+        for task, mentions, likely in self._tasks(ways_to_see(self.model.heads, said, vectors, named), shelf, fitting):
             if any(not CONNECTIVES.isdisjoint(said[slice(*span)]) for span in mentions.spans):
                 continue  # no phrase goes on in another clause
             if sum(end - begin for begin, end in mentions.spans) >= len(said):
@@ -200,14 +192,14 @@ class Matcher:
         if not said or not shelf.tasks:
             return ()
         (vectors,) = self._vectors([said])
-        asked = np.stack([seen.asked for seen in self._seen(said, vectors)])
+        asked = np.stack([seen.asked for seen in ways_to_see(self.model.heads, said, vectors)])
         near = shelf.nearness(asked, self.model.sharpness).max(axis=0)  # [K]
         best = sorted(range(len(near)), key=lambda place: (-near[place], shelf.tasks[place].task))[:count]
         return tuple((shelf.tasks[place].task, float(near[place])) for place in best)
 
     def _tasks(
-        self, seen: Sequence[_Seen], shelf: Shelf, fitting: NDArray[np.bool_]
-    ) -> Iterator[tuple[_Candidate, _Seen, float]]:
+        self, seen: Sequence[Seen], shelf: Shelf, fitting: NDArray[np.bool_]
+    ) -> Iterator[tuple[_Candidate, Seen, float]]:
         """Tasks with what the text mentions, and the probabilities of both together.
 
         Whether a task is meant at all is asked of each way to see the text by itself: it is no likelier a command for
@@ -225,47 +217,10 @@ class Matcher:
         if not odds.any():
             return
         for row, way in enumerate(seen):
-            for place in np.argsort(-odds[row], kind="stable")[:SEQUENCES]:
+            for place in np.argsort(-odds[row], kind="stable")[:MOST_TASKS]:
                 likely = float(asked * odds[row, place] / odds.sum())
                 if likely >= LEAST:
                     yield _Candidate(shelf.tasks[place], self.model.role_temperature), way, likely
-
-    def _seen(self, said: tuple[str, ...], vectors: Vectors, named: Sequence[Span] = ()) -> list[_Seen]:
-        """The likeliest ways to see what a text with the vectors [S, D] mentions; what is named in it is one."""
-        emissions = self.model.heads.tags(vectors)[None]  # [1, S, L]
-        moves, start = (scores[None] for scores in self.model.heads.moves())
-        (total,) = log_totals(emissions, moves, start)
-        expected = _expected(said, named)
-        ways: dict[tuple[Span, ...], float] = dict.fromkeys(expected, NAMED / max(1, len(expected)))
-        share = 1.0 - sum(ways.values())
-        for points, tags in best_sequences(emissions, moves, start, count=SEQUENCES)[0]:
-            spans = _distinct(said, _spans(tags))
-            ways[spans] = ways.get(spans, 0.0) + share * math.exp(min(0.0, points - total))
-        every = list(dict.fromkeys(span for spans in ways for span in spans))
-        roles = dict(zip(every, self.model.heads.roles(vectors, every), strict=True))
-        none = np.zeros((0, self.model.heads.config.role), np.float32)
-        asked = self.model.heads.asked(vectors, [free_words(len(said), spans) for spans in ways])
-        return [
-            _Seen(
-                spans,
-                share,
-                asked[row],
-                np.stack([roles[span] for span in spans]) if spans else none,
-                spans in expected,
-            )
-            for row, (spans, share) in enumerate(ways.items())
-        ]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Seen:
-    """A way to see what a text mentions: the mentions, its probability, and the vectors that follow from it."""
-
-    spans: tuple[Span, ...]
-    probability: float
-    asked: Vectors  # [V]
-    roles: Vectors  # [mentions, R]
-    named: bool  # whether that is expected of what the text names in the environment
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -275,7 +230,7 @@ class _Candidate:
     task: TaughtTask
     temperature: float
 
-    def orders(self, seen: _Seen) -> Iterator[tuple[tuple[int, ...], float]]:
+    def orders(self, seen: Seen) -> Iterator[tuple[tuple[int, ...], float]]:
         """For each argument the mention that it is, in every order, with the probabilities of these."""
         count = len(seen.spans)
         orders = list(permutations(range(count))) if count <= MOST_MENTIONS else [tuple(range(count))]
@@ -290,35 +245,3 @@ class _Candidate:
         top = max(points)
         odds = [math.exp(point - top) for point in points]
         yield from ((order, odd / sum(odds)) for order, odd in zip(orders, odds, strict=True))
-
-
-def _spans(tags: Sequence[int]) -> list[Span]:
-    """The mentions that tags say, left to right."""
-    spans: list[Span] = []
-    for place, tag in enumerate(tags):
-        if tag == ON and spans:
-            spans[-1] = (spans[-1][0], place + 1)
-        elif tag != OUTSIDE:
-            spans.append((place, place + 1))
-    return spans
-
-
-def _expected(said: Sequence[str], named: Sequence[Span]) -> list[tuple[Span, ...]]:
-    """The ways to see a text that names something: it is about that, or, where only "all the lights" are named, about
-    no thing in particular: "turn off all the lights" may be a task of its own.
-    """
-    if not named:
-        return []
-    wide = (quantified(said, span, named) for span in named)
-    of_all = all(
-        quantifiers.quantified(" ".join(said[slice(*span)])).quantifier is quantifiers.Quantifier.ALL for span in wide
-    )
-    return [_distinct(said, named), ()] if of_all else [_distinct(said, named)]
-
-
-def _distinct(said: Sequence[str], spans: Iterable[Span]) -> tuple[Span, ...]:
-    """What is mentioned twice in the same words counts once."""
-    first: dict[tuple[str, ...], Span] = {}
-    for span in spans:
-        first.setdefault(tuple(said[slice(*span)]), span)
-    return tuple(first.values())
