@@ -104,9 +104,10 @@ async def post_plan(
     if not isinstance(found, StoredJob):
         return plan_out(found, time.perf_counter() - started)
     JOB_ID.set(found.id)
-    if found.state == "succeeded":
+    waited = wait.seconds > 0  # who does not wait gets the job, also one that has ended in the meantime
+    if waited and found.state == "succeeded":
         return job_plan_out(found)
-    if found.state == "failed":
+    if waited and found.state == "failed":
         return response_of(job_problem(found))  # type: ignore[return-value]  # FastAPI passes responses on
     headers |= {"Location": job_url(found.id), "Retry-After": "1"}
     return JSONResponse(job_out(found).model_dump(mode="json"), status_code=202, headers=headers)  # type: ignore[return-value]

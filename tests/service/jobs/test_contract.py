@@ -208,6 +208,17 @@ def test_the_same_key_and_request_get_the_same_bytes(shared: Deployment, body: d
     assert shared.client.get("/jobs").json() == before
 
 
+@pytest.mark.parametrize("body", [QUICK, task(2, 1, max_states=10)], ids=["plan", "refusal"])
+def test_who_does_not_wait_gets_the_job_even_if_it_has_ended(shared: Deployment, body: dict[str, Any]) -> None:
+    headers = {"Prefer": "respond-async", "Idempotency-Key": f"asynchronous {body['options']}"}
+    url = order(shared.client, body, **headers)
+    ended = wait_for(shared.client, url, *ENDS)
+    again = shared.client.post("/plan", json=body, headers=headers)
+    assert (again.status_code, again.headers["location"]) == (202, url)
+    assert again.headers["preference-applied"] == "respond-async"
+    assert again.json() == ended
+
+
 def test_the_same_key_with_another_request_is_refused(shared: Deployment) -> None:
     headers = {"Prefer": "wait=30", "Idempotency-Key": "mine"}
     assert shared.client.post("/plan", json=QUICK, headers=headers).status_code == 200
