@@ -22,7 +22,9 @@ from models.world import quantifiers
 SEQUENCES = 6
 """Ways to see what a text mentions that are looked at."""
 NAMED = 0.75
-"""Probability that a command is about all that it names in the environment, and nothing else."""
+"""Probability that a command is about all that it names in the environment, and nothing else; where all of a kind are
+named, one half is for a command about nothing in particular.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
